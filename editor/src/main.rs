@@ -1,0 +1,2 @@
+//! The `lightbench` program.
+fn main() {}

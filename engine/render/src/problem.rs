@@ -1,0 +1,186 @@
+//! What can be wrong with a pipeline or a shader, said so that a student can mend it.
+
+use std::fmt;
+use std::sync::Arc;
+
+/// A position in a file that a person wrote. Lines and columns start at 1; 0 means unknown.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Place {
+    /// Path relative to the project, with forward slashes.
+    pub file: Arc<str>,
+    /// Line, from 1; 0 where only the file is known.
+    pub line: u32,
+    /// Column in characters, from 1; 0 where only the line is known.
+    pub column: u32,
+}
+
+impl Place {
+    /// A position in `file`.
+    pub fn new(file: impl Into<Arc<str>>, line: u32, column: u32) -> Self {
+        Self {
+            file: file.into(),
+            line,
+            column,
+        }
+    }
+
+    /// The file as a whole.
+    pub fn file(file: impl Into<Arc<str>>) -> Self {
+        Self::new(file, 0, 0)
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.line, self.column) {
+            (0, _) => write!(f, "{}", self.file),
+            (line, 0) => write!(f, "{}:{line}", self.file),
+            (line, column) => write!(f, "{}:{line}:{column}", self.file),
+        }
+    }
+}
+
+/// One mistake: where it is, what it is, and how to mend it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Where.
+    pub place: Place,
+    /// What is wrong, as one sentence.
+    pub message: String,
+    /// The way out, where one is known ("did you mean `g_normal`?").
+    pub hint: Option<String>,
+    /// The offending line of the file, where it could be read.
+    pub source_line: Option<String>,
+}
+
+impl Problem {
+    /// A problem without a hint.
+    pub fn new(place: Place, message: impl Into<String>) -> Self {
+        Self {
+            place,
+            message: message.into(),
+            hint: None,
+            source_line: None,
+        }
+    }
+
+    /// Adds the way out.
+    #[must_use]
+    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Adds the offending line, taken from the text of the file.
+    #[must_use]
+    pub fn with_source(mut self, text: &str) -> Self {
+        let index = (self.place.line as usize).checked_sub(1);
+        self.source_line = index
+            .and_then(|i| text.lines().nth(i))
+            .map(|line| line.trim_end().to_owned());
+        self
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)?;
+        if let Some(line) = &self.source_line {
+            write!(f, "\n    {line}")?;
+            if self.place.column > 0 {
+                let indent: String = line
+                    .chars()
+                    .take(self.place.column as usize - 1)
+                    .map(|c| if c == '\t' { '\t' } else { ' ' })
+                    .collect();
+                write!(f, "\n    {indent}^")?;
+            }
+        }
+        if let Some(hint) = &self.hint {
+            write!(f, "\n    help: {hint}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Every mistake that was found, in the order of the file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct Problems(pub Vec<Problem>);
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, problem) in self.0.iter().enumerate() {
+            if i > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{problem}")?;
+        }
+        Ok(())
+    }
+}
+
+impl From<Problem> for Problems {
+    fn from(problem: Problem) -> Self {
+        Self(vec![problem])
+    }
+}
+
+/// "did you mean `x`?" for the candidate nearest to a misspelt name, if one is near enough.
+///
+/// Nearness is the Levenshtein distance; at most a third of the letters may differ.
+pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let limit = (name.chars().count() / 3).max(1);
+    candidates
+        .into_iter()
+        .map(|candidate| (edit_distance(name, candidate), candidate))
+        .filter(|(distance, _)| *distance <= limit)
+        .min()
+        .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
+}
+
+/// Levenshtein (1966) distance between two names, ignoring case.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.to_lowercase().chars().collect();
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, &from) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &to) in b.iter().enumerate() {
+            let substitute = diagonal + usize::from(from != to);
+            diagonal = row[j + 1];
+            row[j + 1] = substitute.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suggests_the_nearest_name_only_when_it_is_near() {
+        let names = ["g_normal", "g_albedo", "depth"];
+        assert_eq!(
+            suggestion("g_nornal", names).as_deref(),
+            Some("did you mean `g_normal`?")
+        );
+        assert_eq!(
+            suggestion("Depth", names).as_deref(),
+            Some("did you mean `depth`?")
+        );
+        assert_eq!(suggestion("shadow", names), None);
+    }
+
+    #[test]
+    fn a_problem_shows_place_line_caret_and_help() {
+        let problem = Problem::new(Place::new("a.rhai", 2, 5), "no target `x`")
+            .with_source("one\ntwo x three\n")
+            .with_hint("declare it");
+        assert_eq!(
+            problem.to_string(),
+            "a.rhai:2:5: no target `x`\n    two x three\n        ^\n    help: declare it"
+        );
+    }
+}
