@@ -1,0 +1,78 @@
+//! The two-way map between entities and the rows of one set of columns.
+
+use crate::entity::Entity;
+
+/// No row: the entity has no such component.
+const NO_ROW: u32 = u32::MAX;
+
+/// `dense → entity` and `entity → dense` (Briggs and Torczon 1993, "An efficient
+/// representation for sparse sets").
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RowMap {
+    /// The entity of each row.
+    entities: Vec<Entity>,
+    /// The row of each entity, by slot index.
+    rows: Vec<u32>,
+    /// Counts the changes of order, so that a cached join knows when it is old.
+    layout: u64,
+}
+
+impl RowMap {
+    pub fn entities(&self) -> &[Entity] {
+        &self.entities
+    }
+
+    pub fn layout(&self) -> u64 {
+        self.layout
+    }
+
+    /// The row of an entity. A stale handle has none: the row's owner is
+    /// compared with the whole handle, generation included.
+    #[inline]
+    pub fn row_of(&self, entity: Entity) -> Option<usize> {
+        let row = *self.rows.get(entity.index() as usize)? as usize;
+        (self.entities.get(row) == Some(&entity)).then_some(row)
+    }
+
+    pub fn reserve(&mut self, additional: usize) {
+        self.entities.reserve(additional);
+        self.rows.reserve(additional);
+    }
+
+    /// Adds a row at the end. The entity must not have one.
+    #[inline]
+    pub fn push(&mut self, entity: Entity) {
+        let slot = entity.index() as usize;
+        if slot >= self.rows.len() {
+            self.rows.resize(slot + 1, NO_ROW);
+        }
+        self.rows[slot] = self.entities.len() as u32;
+        self.entities.push(entity);
+        self.layout += 1;
+    }
+
+    /// Removes an entity's row by moving the last one into its place, and
+    /// returns the row that was freed.
+    #[inline]
+    pub fn swap_remove(&mut self, entity: Entity) -> Option<usize> {
+        let row = self.row_of(entity)?;
+        self.rows[entity.index() as usize] = NO_ROW;
+        self.entities.swap_remove(row);
+        if let Some(moved) = self.entities.get(row) {
+            self.rows[moved.index() as usize] = row as u32;
+        }
+        self.layout += 1;
+        Some(row)
+    }
+
+    pub fn shrink_to_fit(&mut self) {
+        let used = self.rows.iter().rposition(|&row| row != NO_ROW);
+        self.rows.truncate(used.map_or(0, |last| last + 1));
+        self.rows.shrink_to_fit();
+        self.entities.shrink_to_fit();
+    }
+
+    pub fn capacity_bytes(&self) -> usize {
+        self.entities.capacity() * size_of::<Entity>() + self.rows.capacity() * size_of::<u32>()
+    }
+}

@@ -1,0 +1,165 @@
+//! Change ticks: when each row was last written.
+//!
+//! An observer (the renderer, for one) asks the world for a tick, does its work,
+//! and later asks which rows were written after that tick. Asking for a tick
+//! closes it: whatever is written afterwards carries a later one.
+
+/// A moment in the history of a world.
+///
+/// Ticks are compared by their distance, so that the counter may wrap. A row
+/// that nobody wrote for 2³¹ ticks is reported as changed once too often, which
+/// costs an upload and never an error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Tick(pub(crate) u32);
+
+impl Tick {
+    /// Before the first write of any world: everything has changed since then.
+    pub const START: Self = Self(0);
+
+    /// Whether this moment lies after `other`.
+    pub fn is_after(self, other: Self) -> bool {
+        self.0.wrapping_sub(other.0) as i32 > 0
+    }
+
+    pub(crate) fn next(self) -> Self {
+        Self(self.0.wrapping_add(1))
+    }
+}
+
+/// Rows that share one summary tick, so that a search skips what did not change.
+const BLOCK: usize = 256;
+
+/// The ticks of one set of columns.
+#[derive(Clone, Debug)]
+pub(crate) struct ChangeTicks {
+    rows: Vec<Tick>,
+    /// The latest tick of every run of `BLOCK` rows.
+    blocks: Vec<Tick>,
+    /// All rows changed at this tick: marks a whole column without a loop.
+    all: Tick,
+    /// The latest change of any row, or of the number of rows.
+    last: Tick,
+}
+
+impl Default for ChangeTicks {
+    fn default() -> Self {
+        Self {
+            rows: Vec::new(),
+            blocks: Vec::new(),
+            all: Tick::START,
+            last: Tick::START,
+        }
+    }
+}
+
+impl ChangeTicks {
+    pub fn reserve(&mut self, additional: usize) {
+        self.rows.reserve(additional);
+    }
+
+    pub fn push(&mut self, now: Tick) {
+        self.rows.push(now);
+        let block = (self.rows.len() - 1) / BLOCK;
+        if block == self.blocks.len() {
+            self.blocks.push(now);
+        } else {
+            self.blocks[block] = now;
+        }
+        self.last = now;
+    }
+
+    /// Follows a swap-remove: the row that took the place has changed there.
+    pub fn swap_remove(&mut self, row: usize, now: Tick) {
+        self.rows.pop();
+        if row < self.rows.len() {
+            self.mark(row, now);
+        }
+        self.blocks.truncate(self.rows.len().div_ceil(BLOCK));
+        self.last = now;
+    }
+
+    pub fn mark(&mut self, row: usize, now: Tick) {
+        self.rows[row] = now;
+        self.blocks[row / BLOCK] = now;
+        self.last = now;
+    }
+
+    pub fn mark_all(&mut self, now: Tick) {
+        self.all = now;
+        self.last = now;
+    }
+
+    pub fn last(&self) -> Tick {
+        self.last
+    }
+
+    pub fn is_after(&self, row: usize, since: Tick) -> bool {
+        self.rows[row].is_after(since) || self.all.is_after(since)
+    }
+
+    /// Rows written after `since`, in ascending order.
+    pub fn changed_since(&self, since: Tick) -> impl Iterator<Item = usize> + '_ {
+        let everything = self.all.is_after(since);
+        let blocks = if self.last.is_after(since) {
+            self.blocks.len()
+        } else {
+            0
+        };
+        (0..blocks)
+            .filter(move |&block| everything || self.blocks[block].is_after(since))
+            .flat_map(move |block| {
+                let first = block * BLOCK;
+                let end = self.rows.len().min(first + BLOCK);
+                (first..end).filter(move |&row| everything || self.rows[row].is_after(since))
+            })
+    }
+
+    pub fn shrink_to_fit(&mut self) {
+        self.rows.shrink_to_fit();
+        self.blocks.shrink_to_fit();
+    }
+
+    pub fn capacity_bytes(&self) -> usize {
+        (self.rows.capacity() + self.blocks.capacity()) * size_of::<Tick>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_exactly_the_marked_rows() {
+        let mut ticks = ChangeTicks::default();
+        for _ in 0..1000 {
+            ticks.push(Tick(1));
+        }
+        ticks.mark(3, Tick(2));
+        ticks.mark(999, Tick(3));
+        let since = |tick| ticks.changed_since(Tick(tick)).collect::<Vec<_>>();
+        assert_eq!(since(0).len(), 1000);
+        assert_eq!(since(1), [3, 999]);
+        assert_eq!(since(2), [999]);
+        assert!(since(3).is_empty());
+    }
+
+    #[test]
+    fn a_removal_marks_the_row_that_moved() {
+        let mut ticks = ChangeTicks::default();
+        for _ in 0..600 {
+            ticks.push(Tick(1));
+        }
+        ticks.swap_remove(10, Tick(5));
+        assert_eq!(ticks.changed_since(Tick(4)).collect::<Vec<_>>(), [10]);
+        ticks.swap_remove(598, Tick(6));
+        assert_eq!(ticks.changed_since(Tick(5)).count(), 0);
+        assert_eq!(ticks.last(), Tick(6));
+    }
+
+    #[test]
+    fn order_survives_the_wrap() {
+        assert!(Tick(2).is_after(Tick(u32::MAX - 2)));
+        assert!(!Tick(u32::MAX - 2).is_after(Tick(2)));
+        assert_eq!(Tick(u32::MAX).next(), Tick(0));
+    }
+}
