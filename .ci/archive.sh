@@ -44,10 +44,11 @@ make_archive() {
 # Prints the crates inside the program with their licences, and each licence text once.
 list_licences() {
     local cargo_home=${CARGO_HOME:-$home/.cargo} work crate licence name version directory file sum
+    cargo_home=${cargo_home//\\//} # as bash on Windows wants it
     work=$(mktemp -d)
     printf 'Lightbench is built from these crates, each under its own licence.\n\n'
     (cd "$root" && cargo tree --locked --package lightbench-editor --edges normal --prefix none \
-        --format '{p}|{l}') | grep -v ' (/' | sed 's/ (\*)$//; s/ (proc-macro)//' | LC_ALL=C sort -u |
+        --format '{p}|{l}') | grep -v '^lightbench' | sed 's/ (\*)$//; s/ (proc-macro)//' | LC_ALL=C sort -u |
         while IFS='|' read -r crate licence; do
             printf '%s: %s\n' "$crate" "${licence:-see its text below}"
             name=${crate%% v*} version=${crate##* v}

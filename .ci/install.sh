@@ -118,7 +118,7 @@ explain_mending() {
         say "Install Mesa's Vulkan drivers (lavapipe), the Vulkan loader and the libraries named above."
     fi
     if [ "$user" = yes ] && [ "$(package_manager)" = apt-get ]; then
-        say "Without root:  ./x setup --user   (downloads into $user_driver)"
+        say "Without root:  ./x setup --user   (the driver and the window libraries, into $user_driver)"
     fi
 }
 
