@@ -81,11 +81,14 @@ try_archive() {
     mkdir -p "$folder" "$work/home"
     tar -xzf "$archive" -C "$folder" --strip-components 1
 
-    # A program that knows where it was built would find its files there, and hide that it needs them.
-    if grep -q -F -- "$root/" "$folder/lightbench"; then
-        say "the program contains the path of the source tree: $root"
-        return 1
-    fi
+    # A program that knows where its data lay when it was built would find them there, and hide that
+    # it needs them.
+    for name in scripts shaders lessons engine editor; do
+        if grep -q -F -- "$root/$name/" "$folder/lightbench"; then
+            say "the program contains the path of the source tree: $root/$name/"
+            return 1
+        fi
+    done
     if unshare --user --map-root-user --net true 2>/dev/null; then
         apart=(unshare --user --map-root-user --net)
     fi
