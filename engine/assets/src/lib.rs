@@ -1,1 +1,32 @@
-//! See the crate description.
+//! Meshes, materials, images and the files they come from.
+//!
+//! This crate holds what a scene is made of before any of it reaches a GPU:
+//!
+//! - [`Assets`] is the table of all [`Mesh`]es, [`Material`]s and [`Texture`]s
+//!   of a scene, with a revision per item, so that a renderer uploads only what
+//!   changed.
+//! - [`files`] is the one door to the disk: shipped data inside the program,
+//!   covered by the files of a student's project.
+//! - [`procedural`] and [`procedural_texture`] make geometry and pictures from
+//!   parameters.
+//!
+//! Units are metres and radians, y is up, a triangle is seen from its front
+//! when its corners run counter-clockwise, and colours are linear Rec. 709
+//! unless a texture's format says sRGB. Texture coordinates have their origin
+//! at the top left of the picture and v runs down, as the GPU samples them.
+
+mod assets;
+pub mod color;
+pub mod files;
+mod material;
+mod mesh;
+pub mod procedural;
+pub mod procedural_texture;
+mod tangents;
+mod texture;
+
+pub use assets::{Assets, Entry, UnknownAsset};
+pub use lightbench_world::{MaterialId, MeshBounds, MeshId};
+pub use material::Material;
+pub use mesh::{Mesh, MeshError};
+pub use texture::{MAX_TEXTURE_SIZE, Texture, TextureError, TextureFormat, TextureId};

@@ -1,0 +1,342 @@
+//! The table of everything that a scene draws.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use lightbench_world::{MaterialId, MeshBounds, MeshId};
+use thiserror::Error;
+
+use crate::{Material, Mesh, Texture, TextureId};
+
+/// An item and the revision at which it got its present value.
+#[derive(Clone, Debug)]
+pub struct Entry<T> {
+    /// The item.
+    pub value: T,
+    /// Never given twice in a run of the program, not even in another
+    /// [`Assets`]: equal revisions mean equal values.
+    pub revision: u64,
+}
+
+/// An id that belongs to no item.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("there is no {kind} {index}; the scene has {count}")]
+pub struct UnknownAsset {
+    kind: &'static str,
+    index: u32,
+    count: usize,
+}
+
+/// Items in the order in which they were added, with their names.
+#[derive(Clone, Debug)]
+struct Table<T> {
+    kind: &'static str,
+    entries: Vec<Entry<T>>,
+    names: Vec<String>,
+    by_name: HashMap<String, u32>,
+}
+
+impl<T> Table<T> {
+    fn new(kind: &'static str) -> Self {
+        Self {
+            kind,
+            entries: Vec::new(),
+            names: Vec::new(),
+            by_name: HashMap::new(),
+        }
+    }
+
+    fn add(&mut self, name: &str, value: T, revision: u64) -> u32 {
+        let index = self.entries.len() as u32;
+        self.entries.push(Entry { value, revision });
+        self.names.push(name.to_owned());
+        self.by_name.insert(name.to_owned(), index);
+        index
+    }
+
+    fn replace(&mut self, index: u32, name: &str, value: T) -> Result<u64, UnknownAsset> {
+        let count = self.entries.len();
+        let entry = self.entries.get_mut(index as usize).ok_or(UnknownAsset {
+            kind: self.kind,
+            index,
+            count,
+        })?;
+        let revision = next_revision();
+        *entry = Entry { value, revision };
+        if self.names[index as usize] != name {
+            let old = std::mem::replace(&mut self.names[index as usize], name.to_owned());
+            for name in [old.as_str(), name] {
+                match self.names.iter().rposition(|other| other == name) {
+                    Some(latest) => self.by_name.insert(name.to_owned(), latest as u32),
+                    None => self.by_name.remove(name),
+                };
+            }
+        }
+        Ok(revision)
+    }
+
+    fn get(&self, index: u32) -> Option<&T> {
+        self.entries.get(index as usize).map(|entry| &entry.value)
+    }
+}
+
+/// All meshes, materials and textures of a scene.
+///
+/// Items are never removed, so that ids stay valid; they may be replaced, as
+/// when a file changes on the disk. Meshes and textures are shared, so that a
+/// clone costs only the tables. Several items may have one name: it finds the
+/// latest.
+///
+/// [`MaterialId`]`(0)` is always the default material and
+/// [`TextureId::PLACEHOLDER`] the checker for missing pictures.
+#[derive(Clone, Debug)]
+pub struct Assets {
+    meshes: Table<Arc<Mesh>>,
+    bounds: Vec<MeshBounds>,
+    materials: Table<Material>,
+    textures: Table<Arc<Texture>>,
+    revision: u64,
+}
+
+/// One sequence for the whole program: two scenes never give the same revision
+/// to different values, even when one began as a clone of the other.
+fn next_revision() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
+}
+
+impl Default for Assets {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Assets {
+    /// The default material and the placeholder texture, nothing else.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut assets = Self {
+            meshes: Table::new("mesh"),
+            bounds: Vec::new(),
+            materials: Table::new("material"),
+            textures: Table::new("texture"),
+            revision: 0,
+        };
+        assets.add_material(Material::default());
+        assets.add_texture(Texture::placeholder());
+        assets
+    }
+
+    /// The revision of the latest change to any item.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Adds a mesh.
+    pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
+        self.revision = next_revision();
+        self.bounds.push(mesh.bounds());
+        let name = mesh.name.clone();
+        MeshId(self.meshes.add(&name, Arc::new(mesh), self.revision))
+    }
+
+    /// Adds a material.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        self.revision = next_revision();
+        let name = material.name.clone();
+        MaterialId(self.materials.add(&name, material, self.revision))
+    }
+
+    /// Adds a texture.
+    pub fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.add_shared_texture(Arc::new(texture))
+    }
+
+    /// Adds a texture that others hold too.
+    pub fn add_shared_texture(&mut self, texture: Arc<Texture>) -> TextureId {
+        self.revision = next_revision();
+        let name = texture.name.clone();
+        TextureId(self.textures.add(&name, texture, self.revision))
+    }
+
+    /// Puts another mesh, and its name, in the place of one.
+    ///
+    /// # Errors
+    /// An id that belongs to no mesh.
+    pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Result<(), UnknownAsset> {
+        let bounds = mesh.bounds();
+        let name = mesh.name.clone();
+        self.revision = self.meshes.replace(id.0, &name, Arc::new(mesh))?;
+        self.bounds[id.0 as usize] = bounds;
+        Ok(())
+    }
+
+    /// Puts another material, and its name, in the place of one.
+    ///
+    /// # Errors
+    /// An id that belongs to no material.
+    pub fn replace_material(
+        &mut self,
+        id: MaterialId,
+        material: Material,
+    ) -> Result<(), UnknownAsset> {
+        let name = material.name.clone();
+        self.revision = self.materials.replace(id.0, &name, material)?;
+        Ok(())
+    }
+
+    /// Puts another texture, and its name, in the place of one.
+    ///
+    /// # Errors
+    /// An id that belongs to no texture.
+    pub fn replace_texture(&mut self, id: TextureId, texture: Texture) -> Result<(), UnknownAsset> {
+        let name = texture.name.clone();
+        self.revision = self.textures.replace(id.0, &name, Arc::new(texture))?;
+        Ok(())
+    }
+
+    /// The mesh of an id.
+    #[must_use]
+    pub fn mesh(&self, id: MeshId) -> Option<&Arc<Mesh>> {
+        self.meshes.get(id.0)
+    }
+
+    /// The material of an id.
+    #[must_use]
+    pub fn material(&self, id: MaterialId) -> Option<&Material> {
+        self.materials.get(id.0)
+    }
+
+    /// The texture of an id.
+    #[must_use]
+    pub fn texture(&self, id: TextureId) -> Option<&Arc<Texture>> {
+        self.textures.get(id.0)
+    }
+
+    /// The latest mesh of a name.
+    #[must_use]
+    pub fn find_mesh(&self, name: &str) -> Option<MeshId> {
+        self.meshes.by_name.get(name).copied().map(MeshId)
+    }
+
+    /// The latest material of a name.
+    #[must_use]
+    pub fn find_material(&self, name: &str) -> Option<MaterialId> {
+        self.materials.by_name.get(name).copied().map(MaterialId)
+    }
+
+    /// The latest texture of a name.
+    #[must_use]
+    pub fn find_texture(&self, name: &str) -> Option<TextureId> {
+        self.textures.by_name.get(name).copied().map(TextureId)
+    }
+
+    /// All meshes; the place in the slice is the id.
+    #[must_use]
+    pub fn meshes(&self) -> &[Entry<Arc<Mesh>>] {
+        &self.meshes.entries
+    }
+
+    /// Bounds of all meshes; the place in the slice is the id.
+    #[must_use]
+    pub fn mesh_bounds(&self) -> &[MeshBounds] {
+        &self.bounds
+    }
+
+    /// All materials; the place in the slice is the id.
+    #[must_use]
+    pub fn materials(&self) -> &[Entry<Material>] {
+        &self.materials.entries
+    }
+
+    /// All textures; the place in the slice is the id.
+    #[must_use]
+    pub fn textures(&self) -> &[Entry<Arc<Texture>>] {
+        &self.textures.entries
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn mesh(name: &str) -> Mesh {
+        crate::procedural::cuboid(glam::Vec3::ONE).named(name)
+    }
+
+    #[test]
+    fn the_first_ids_are_the_stand_ins() {
+        let assets = Assets::new();
+        assert_eq!(assets.material(MaterialId(0)), Some(&Material::default()));
+        let texture = assets.texture(TextureId::PLACEHOLDER).unwrap();
+        assert_eq!(
+            texture.pixel(0, 0, 0).unwrap().to_array(),
+            [1.0, 0.0, 1.0, 1.0]
+        );
+        assert_eq!(
+            texture.pixel(0, 8, 0).unwrap().to_array(),
+            [0.0, 0.0, 0.0, 1.0]
+        );
+    }
+
+    #[test]
+    fn only_what_changed_has_a_new_revision() {
+        let mut assets = Assets::new();
+        let first = assets.add_mesh(mesh("a"));
+        let second = assets.add_mesh(mesh("b"));
+        let before: Vec<u64> = assets.meshes().iter().map(|entry| entry.revision).collect();
+        assert_eq!(assets.revision(), before[1]);
+        let half = crate::procedural::cuboid(glam::Vec3::splat(0.5)).named("a");
+        assets.replace_mesh(first, half).unwrap();
+        assert_eq!(assets.meshes()[1].revision, before[1]);
+        assert!(assets.meshes()[0].revision > before[1]);
+        assert_eq!(assets.revision(), assets.meshes()[0].revision);
+        assert_eq!(
+            assets.mesh_bounds()[0].half_extents,
+            glam::Vec3::splat(0.25)
+        );
+        assert_eq!(
+            assets.mesh_bounds()[second.0 as usize].half_extents,
+            glam::Vec3::splat(0.5)
+        );
+    }
+
+    #[test]
+    fn clones_that_part_never_share_a_new_revision() {
+        let mut one = Assets::new();
+        let id = one.add_mesh(mesh("a"));
+        let mut other = one.clone();
+        assert!(Arc::ptr_eq(one.mesh(id).unwrap(), other.mesh(id).unwrap()));
+        one.replace_mesh(id, mesh("x")).unwrap();
+        other.replace_mesh(id, mesh("y")).unwrap();
+        assert_ne!(one.revision(), other.revision());
+        assert_ne!(one.meshes()[0].revision, other.meshes()[0].revision);
+    }
+
+    #[test]
+    fn names_find_the_latest_and_follow_replacement() {
+        let mut assets = Assets::new();
+        let first = assets.add_mesh(mesh("a"));
+        let second = assets.add_mesh(mesh("a"));
+        assert_eq!(assets.find_mesh("a"), Some(second));
+        assets.replace_mesh(second, mesh("b")).unwrap();
+        assert_eq!(assets.find_mesh("a"), Some(first));
+        assert_eq!(assets.find_mesh("b"), Some(second));
+        assets.replace_mesh(first, mesh("b")).unwrap();
+        assert_eq!(assets.find_mesh("a"), None);
+        assert_eq!(assets.find_mesh("b"), Some(second));
+        assert_eq!(assets.find_material("default"), Some(MaterialId(0)));
+        assert_eq!(assets.find_texture("placeholder"), Some(TextureId(0)));
+    }
+
+    #[test]
+    fn unknown_ids_are_refused() {
+        let mut assets = Assets::new();
+        let error = assets.replace_mesh(MeshId(7), mesh("a")).unwrap_err();
+        assert_eq!(error.to_string(), "there is no mesh 7; the scene has 0");
+        assert!(assets.material(MaterialId(1)).is_none());
+    }
+}

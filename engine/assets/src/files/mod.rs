@@ -1,0 +1,340 @@
+//! The one door to the disk.
+//!
+//! A [`Files`] store has two layers. Shaders, scripts and lessons are shipped
+//! inside the program; a student's project folder lies over them, and a file
+//! there hides the shipped one of the same path. Everything is addressed by a
+//! path relative to the project, with forward slashes, such as
+//! `shaders/lib/surface.wgsl`. No path leads out of the project, not by `..`
+//! and not by a symbolic link, because scripts name files too and scripts are
+//! not trusted.
+//!
+//! A file outside the project that the user named, on the command line say, is
+//! let in by [`Files::grant`].
+
+mod atomic;
+mod error;
+mod list;
+mod path;
+mod project;
+mod shipped {
+    include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
+}
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+pub use atomic::write_atomic;
+pub use error::FileError;
+pub use list::Listed;
+pub use path::{check, join};
+pub use project::{PROJECT_MARKER, create_project, find_project};
+
+/// The largest file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 512 << 20;
+
+/// What the path of a granted file begins with; see [`Files::grant`].
+const GRANT_PREFIX: char = '@';
+
+/// Where a file comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A file on the disk, in the project or granted.
+    Project(PathBuf),
+    /// Inside the program.
+    Shipped,
+}
+
+/// The layered file store. Clones are cheap, and share nothing that changes.
+#[derive(Clone, Debug)]
+pub struct Files {
+    /// Canonical, so that what it holds can be told from what it links to.
+    project: Option<PathBuf>,
+    shipped: &'static [(&'static str, &'static [u8])],
+    /// Canonical folders.
+    grants: Vec<PathBuf>,
+}
+
+impl Files {
+    /// Only what the program carries.
+    #[must_use]
+    pub fn shipped() -> Self {
+        Self {
+            project: None,
+            shipped: shipped::SHIPPED,
+            grants: Vec::new(),
+        }
+    }
+
+    /// A project folder over what the program carries. The folder needs no
+    /// marker file.
+    ///
+    /// # Errors
+    /// A folder that is not there or can't be read.
+    pub fn with_project(folder: impl AsRef<Path>) -> Result<Self, FileError> {
+        let folder = folder.as_ref();
+        let canonical = fs::canonicalize(folder).map_err(|error| FileError::io(folder, error))?;
+        if !canonical.is_dir() {
+            return Err(FileError::NotAFolder {
+                path: folder.to_owned(),
+            });
+        }
+        Ok(Self {
+            project: Some(canonical),
+            ..Self::shipped()
+        })
+    }
+
+    /// The project's folder, if there is one.
+    #[must_use]
+    pub fn project(&self) -> Option<&Path> {
+        self.project.as_deref()
+    }
+
+    /// Lets in a file that the user named, and what lies beside and below it
+    /// (an OBJ needs its materials and pictures). Returns the path for
+    /// [`Files::read`]: the usual one for a file of the project, one that
+    /// begins with `@` and a number for others.
+    ///
+    /// # Errors
+    /// A file that is not there.
+    pub fn grant(&mut self, file: impl AsRef<Path>) -> Result<String, FileError> {
+        let file = file.as_ref();
+        let canonical = fs::canonicalize(file).map_err(|error| FileError::io(file, error))?;
+        let not_unicode = || FileError::NotUnicode {
+            path: file.to_owned(),
+        };
+        if let Some(project) = &self.project
+            && let Ok(below) = canonical.strip_prefix(project)
+        {
+            let parts: Option<Vec<&str>> = below.iter().map(|part| part.to_str()).collect();
+            return Ok(parts.ok_or_else(not_unicode)?.join("/"));
+        }
+        let (Some(folder), Some(name)) = (canonical.parent(), canonical.file_name()) else {
+            return Err(FileError::IsAFolder { path: canonical });
+        };
+        let name = name.to_str().ok_or_else(not_unicode)?;
+        let index = match self.grants.iter().position(|granted| *granted == folder) {
+            Some(index) => index,
+            None => {
+                self.grants.push(folder.to_owned());
+                self.grants.len() - 1
+            }
+        };
+        Ok(format!("{GRANT_PREFIX}{index}/{name}"))
+    }
+
+    /// The bytes of a file.
+    ///
+    /// # Errors
+    /// A path that is not allowed, a file that is in no layer, can't be read
+    /// or is larger than [`MAX_FILE_BYTES`].
+    pub fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        match self.origin(path)? {
+            Origin::Project(on_disk) => read_limited(&on_disk),
+            Origin::Shipped => self
+                .shipped_bytes(path)
+                .map(<[u8]>::to_vec)
+                .ok_or_else(|| FileError::not_found(path, self.project())),
+        }
+    }
+
+    /// The text of a file, which must be UTF-8. A byte-order mark is taken off
+    /// and every line end (CR LF or a lone CR) becomes LF, so that line numbers
+    /// are the same for every reader of the text.
+    ///
+    /// # Errors
+    /// As [`Files::read`], and text that is not UTF-8, with its line.
+    pub fn read_text(&self, path: &str) -> Result<String, FileError> {
+        decode_text(path, self.read(path)?)
+    }
+
+    /// Which layer a file is read from.
+    ///
+    /// # Errors
+    /// A path that is not allowed, or a file that is in no layer.
+    pub fn origin(&self, path: &str) -> Result<Origin, FileError> {
+        if let Some((root, below)) = self.granted(path)? {
+            return match inside(root, below, path)? {
+                Some(on_disk) => Ok(Origin::Project(on_disk)),
+                None => Err(FileError::not_found(below, Some(root))),
+            };
+        }
+        check(path)?;
+        if let Some(project) = &self.project
+            && let Some(on_disk) = inside(project, path, path)?
+        {
+            return Ok(Origin::Project(on_disk));
+        }
+        match self.shipped_bytes(path) {
+            Some(_) => Ok(Origin::Shipped),
+            None => Err(FileError::not_found(path, self.project())),
+        }
+    }
+
+    /// Whether a file is in some layer, and its path allowed.
+    #[must_use]
+    pub fn exists(&self, path: &str) -> bool {
+        self.origin(path).is_ok()
+    }
+
+    /// A path as the user knows it, for messages: that on the disk for granted
+    /// files, the relative one for all others.
+    #[must_use]
+    pub fn display(&self, path: &str) -> String {
+        match self.granted(path) {
+            Ok(Some((root, below))) => root.join(below).display().to_string(),
+            _ => path.to_owned(),
+        }
+    }
+
+    /// Copies a shipped file into the project, so that it can be edited, and
+    /// returns where it is. A file that the project has already stays as it is.
+    ///
+    /// # Errors
+    /// No project, a path that is not allowed, a file that is in no layer, a
+    /// folder that can't be written.
+    pub fn copy_to_project(&self, path: &str) -> Result<PathBuf, FileError> {
+        let target = self.place_in_project(path)?;
+        if let Origin::Project(on_disk) = self.origin(path)? {
+            return Ok(on_disk);
+        }
+        match atomic::write_new(&target, &self.read(path)?) {
+            Err(FileError::Exists { .. }) => Ok(target),
+            other => other.map(|()| target),
+        }
+    }
+
+    /// Writes a file of the project, whole or not at all, with the folders
+    /// that it needs. Returns where it is.
+    ///
+    /// # Errors
+    /// No project, a path that is not allowed, a folder that can't be written,
+    /// a full disk.
+    pub fn write(&self, path: &str, bytes: &[u8]) -> Result<PathBuf, FileError> {
+        let target = self.place_in_project(path)?;
+        write_atomic(&target, bytes)?;
+        Ok(target)
+    }
+
+    fn shipped_bytes(&self, path: &str) -> Option<&'static [u8]> {
+        let found = self.shipped.binary_search_by(|(name, _)| (*name).cmp(path));
+        found.ok().map(|index| self.shipped[index].1)
+    }
+
+    /// Splits a granted path into its folder and the rest.
+    fn granted<'a>(&self, path: &'a str) -> Result<Option<(&Path, &'a str)>, FileError> {
+        let Some(rest) = path.strip_prefix(GRANT_PREFIX) else {
+            return Ok(None);
+        };
+        let Some((index, below)) = rest.split_once('/') else {
+            return Ok(None);
+        };
+        let Some(root) = index
+            .parse()
+            .ok()
+            .and_then(|index: usize| self.grants.get(index))
+        else {
+            return Ok(None);
+        };
+        check(below)?;
+        Ok(Some((root, below)))
+    }
+
+    /// Where a file of the project is or would be, with its folder made.
+    fn place_in_project(&self, path: &str) -> Result<PathBuf, FileError> {
+        check(path)?;
+        let project = self.project.as_ref().ok_or_else(|| FileError::NoProject {
+            path: path.to_owned(),
+        })?;
+        let target = project.join(path);
+        // The deepest folder that exists decides whether a link leads out.
+        let existing = target
+            .ancestors()
+            .find(|ancestor| ancestor.symlink_metadata().is_ok())
+            .unwrap_or(project);
+        let real = fs::canonicalize(existing).map_err(|error| FileError::io(existing, error))?;
+        if !real.starts_with(project) {
+            return Err(FileError::Escapes {
+                path: path.to_owned(),
+                leads_to: real,
+            });
+        }
+        if let Some(folder) = target.parent() {
+            fs::create_dir_all(folder).map_err(|error| FileError::io(folder, error))?;
+        }
+        Ok(target)
+    }
+}
+
+/// The real place of a file below `root`, or `None` if there is none.
+fn inside(root: &Path, below: &str, asked: &str) -> Result<Option<PathBuf>, FileError> {
+    let on_disk = root.join(below);
+    match fs::canonicalize(&on_disk) {
+        Ok(real) if !real.starts_with(root) => Err(FileError::Escapes {
+            path: asked.to_owned(),
+            leads_to: real,
+        }),
+        Ok(real) if real.is_dir() => Err(FileError::IsAFolder { path: on_disk }),
+        // A pipe or a device would block the reader for ever.
+        Ok(real) if !real.is_file() => Err(FileError::NotAFile { path: on_disk }),
+        Ok(_) => Ok(Some(on_disk)),
+        Err(error) if is_absent(&error) => Ok(None),
+        Err(error) => Err(FileError::io(&on_disk, error)),
+    }
+}
+
+/// Nothing of that name, which includes "a part of the path is no folder".
+fn is_absent(error: &std::io::Error) -> bool {
+    matches!(
+        error.kind(),
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory
+    )
+}
+
+fn read_limited(path: &Path) -> Result<Vec<u8>, FileError> {
+    let file = fs::File::open(path).map_err(|error| FileError::io(path, error))?;
+    let size = file.metadata().map_or(0, |metadata| metadata.len());
+    let mut bytes = Vec::new();
+    if size <= MAX_FILE_BYTES {
+        bytes.reserve_exact(size as usize);
+        file.take(MAX_FILE_BYTES + 1)
+            .read_to_end(&mut bytes)
+            .map_err(|error| FileError::io(path, error))?;
+    }
+    if size > MAX_FILE_BYTES || bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(FileError::TooLarge {
+            path: path.to_owned(),
+            limit: MAX_FILE_BYTES >> 20,
+        });
+    }
+    Ok(bytes)
+}
+
+/// Text from bytes, as [`Files::read_text`] gives it; `path` is for messages.
+///
+/// # Errors
+/// Text that is not UTF-8, with its line.
+pub fn decode_text(path: &str, bytes: Vec<u8>) -> Result<String, FileError> {
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..valid]
+            .iter()
+            .filter(|byte| **byte == b'\n')
+            .count()
+            + 1;
+        FileError::NotText {
+            path: path.to_owned(),
+            line,
+        }
+    })?;
+    let text = match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    };
+    if text.contains('\r') {
+        Ok(text.replace("\r\n", "\n").replace('\r', "\n"))
+    } else {
+        Ok(text)
+    }
+}

@@ -1,0 +1,1 @@
+//! Pictures from parameters: stone, brick, tiles, cloth, plaster and a checker.
