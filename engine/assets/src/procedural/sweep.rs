@@ -101,22 +101,37 @@ pub fn revolve(profile: &Profile, segments: u32, uv_scale: Vec2) -> Mesh {
     let mut mesh = Mesh::default();
     let mut along = 0.0;
     for part in &profile.parts {
-        let first = mesh.positions.len() as u32;
+        let mut rows = Vec::with_capacity(part.len());
         for (row, point) in part.iter().enumerate() {
             if row > 0 {
                 along += point.at.distance(part[row - 1].at);
             }
             let v = uv_scale.y * (1.0 - along / whole);
+            let start = mesh.positions.len() as u32;
             let pole = point.at.x <= 0.0;
-            for column in 0..=segments {
-                // At a pole each triangle has its own vertex, in the middle.
-                let step = column as f32 + if pole { 0.5 } else { 0.0 };
-                add_ring_vertex(&mut mesh, *point, step / segments as f32, v, uv_scale.x);
+            rows.push(Row { start, pole });
+            // At a pole each triangle has its own vertex, in its middle.
+            let (columns, shift) = if pole {
+                (segments, 0.5)
+            } else {
+                (segments + 1, 0.0)
+            };
+            for column in 0..columns {
+                let turn = (column as f32 + shift) / segments as f32;
+                add_ring_vertex(&mut mesh, *point, turn, v, uv_scale.x);
             }
         }
-        add_rings(&mut mesh, first, part, segments);
+        for pair in rows.windows(2) {
+            join_rows(&mut mesh, &pair[0], &pair[1], segments);
+        }
     }
     mesh
+}
+
+/// A ring of vertices, or the copies of a pole.
+struct Row {
+    start: u32,
+    pole: bool,
 }
 
 /// A vertex at a share of the turn. The turn goes from +x by −z, which is to
@@ -132,18 +147,15 @@ fn add_ring_vertex(mesh: &mut Mesh, point: ProfilePoint, turn: f32, v: f32, u_sc
     mesh.tangents.push(Vec4::new(-sin, 0.0, -cos, 1.0));
 }
 
-fn add_rings(mesh: &mut Mesh, first: u32, part: &[ProfilePoint], segments: u32) {
-    for (row, pair) in part.windows(2).enumerate() {
-        for column in 0..segments {
-            let a = first + row as u32 * (segments + 1) + column;
-            let (b, c, d) = (a + 1, a + segments + 2, a + segments + 1);
-            if pair[0].at.x > 0.0 {
-                mesh.indices
-                    .extend([a, b, if pair[1].at.x > 0.0 { c } else { d }]);
-            }
-            if pair[1].at.x > 0.0 {
-                mesh.indices.extend([a, c, d]);
-            }
+fn join_rows(mesh: &mut Mesh, lower: &Row, upper: &Row, segments: u32) {
+    for column in 0..segments {
+        let (a, d) = (lower.start + column, upper.start + column);
+        if !lower.pole {
+            mesh.indices
+                .extend([a, a + 1, if upper.pole { d } else { d + 1 }]);
+        }
+        if !upper.pole {
+            mesh.indices.extend([a, d + 1, d]);
         }
     }
 }
