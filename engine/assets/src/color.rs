@@ -29,16 +29,21 @@ pub fn decode_srgb8(byte: u8) -> f32 {
 /// values. What lies outside 0..1 is clamped, and NaN is black.
 #[must_use]
 pub fn encode_srgb8(linear: f32) -> u8 {
-    // A search among the 255 borders between neighbouring bytes is exact and
-    // faster than a power function.
-    STEPS.partition_point(|&step| step <= linear) as u8
+    // Exact comparisons with the borders between neighbouring bytes, beginning
+    // near the right one: several times as fast as a power function. A cast
+    // from float to integer saturates, and makes 0 of NaN.
+    let bucket = ((linear * BUCKETS as f32) as usize).min(BUCKETS);
+    let mut byte = FIRST_BYTES[bucket];
+    while byte < 255 && STEPS[usize::from(byte)] <= linear {
+        byte += 1;
+    }
+    byte
 }
 
 /// The byte nearest to a value of 0..1. What lies outside is clamped, and NaN
 /// is 0.
 #[must_use]
 pub fn encode_unorm8(value: f32) -> u8 {
-    // A cast from float to integer saturates, and makes 0 of NaN.
     (value * 255.0 + 0.5) as u8
 }
 
@@ -56,6 +61,17 @@ static DECODED: LazyLock<[f32; 256]> =
 /// `STEPS[i]` is the linear light from which byte `i + 1` is nearer than `i`.
 static STEPS: LazyLock<[f32; 255]> =
     LazyLock::new(|| std::array::from_fn(|byte| decode((byte as f64 + 0.5) / 255.0) as f32));
+
+/// Ranges of linear light of equal width, each with at most two borders.
+const BUCKETS: usize = 4096;
+
+/// The byte at the lower end of each bucket.
+static FIRST_BYTES: LazyLock<[u8; BUCKETS + 1]> = LazyLock::new(|| {
+    std::array::from_fn(|bucket| {
+        let low = bucket as f32 / BUCKETS as f32;
+        STEPS.partition_point(|&step| step <= low) as u8
+    })
+});
 
 #[cfg(test)]
 mod tests {

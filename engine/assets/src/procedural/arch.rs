@@ -39,7 +39,7 @@ impl Default for Arch {
             span: PI,
             voussoirs: 13,
             segments: 3,
-            joint: 0.012,
+            joint: 0.02,
         }
     }
 }

@@ -20,31 +20,45 @@ impl Noise {
     /// picture (0 to 1, repeating) with `cells` lattice cells along each side.
     #[must_use]
     pub fn at(self, place: Vec2, cells: u32) -> f32 {
-        let cells = cells.max(1);
-        let place = (place - place.floor()) * cells as f32;
-        let corner = place.floor();
-        let in_cell = place - corner;
-        // Rounding can put a place just below 1 on the far edge.
-        let (x, y) = (corner.x as u32 % cells, corner.y as u32 % cells);
-        let (next_x, next_y) = ((x + 1) % cells, (y + 1) % cells);
-        let slope = |x: u32, y: u32, dx: f32, dy: f32| {
-            gradient(self.hash(x, y)).dot(in_cell - Vec2::new(dx, dy))
-        };
+        self.wrapped(place - place.floor(), cells.max(1))
+    }
+
+    /// As [`Noise::at`], at a place that is 0 to 1 already.
+    fn wrapped(self, place: Vec2, cells: u32) -> f32 {
+        let place = place * cells as f32;
+        // Casts, because rounding down is a call of a function on the oldest
+        // processors that the compiler must serve. Rounding up may have put a
+        // place of nearly 1 on the far edge.
+        let (x, y) = (
+            (place.x as u32).min(cells - 1),
+            (place.y as u32).min(cells - 1),
+        );
+        let next = |line: u32| if line + 1 == cells { 0 } else { line + 1 };
+        let in_cell = place - Vec2::new(x as f32, y as f32);
+        let slope =
+            |row: u32, x: u32, from: Vec2| gradient(pcg(x.wrapping_add(row))).dot(in_cell - from);
         let fade = in_cell * in_cell * in_cell * (in_cell * (in_cell * 6.0 - 15.0) + 10.0);
-        let top = lerp(slope(x, y, 0.0, 0.0), slope(next_x, y, 1.0, 0.0), fade.x);
-        let bottom = lerp(
-            slope(x, next_y, 0.0, 1.0),
-            slope(next_x, next_y, 1.0, 1.0),
+        let (top, bottom) = (self.row(y), self.row(next(y)));
+        let (left, right) = (x, next(x));
+        let above = lerp(
+            slope(top, left, Vec2::ZERO),
+            slope(top, right, Vec2::X),
+            fade.x,
+        );
+        let below = lerp(
+            slope(bottom, left, Vec2::Y),
+            slope(bottom, right, Vec2::ONE),
             fade.x,
         );
         // The greatest value of the sum with unit gradients is sqrt(1/2).
-        lerp(top, bottom, fade.y) * std::f32::consts::SQRT_2
+        lerp(above, below, fade.y) * std::f32::consts::SQRT_2
     }
 
     /// A sum of `octaves` noises, each of half the size and half the height of
     /// the one before, brought back to about −1 to 1.
     #[must_use]
     pub fn fractal(self, place: Vec2, cells: u32, octaves: u32) -> f32 {
+        let place = place - place.floor();
         let (mut sum, mut total, mut weight) = (0.0, 0.0, 1.0);
         for octave in 0..octaves.clamp(1, 12) {
             let layer = Self::new(self.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9)));
@@ -55,7 +69,7 @@ impl Noise {
             else {
                 break;
             };
-            sum += weight * layer.at(place, cells);
+            sum += weight * layer.wrapped(place, cells);
             total += weight;
             weight *= 0.5;
         }
@@ -65,40 +79,35 @@ impl Noise {
     /// A number of 0 to 1 for a lattice cell, the same for the whole cell.
     #[must_use]
     pub fn cell(self, x: u32, y: u32) -> f32 {
-        (self.hash(x, y) >> 8) as f32 / (1 << 24) as f32
+        (pcg(x.wrapping_add(self.row(y))) >> 8) as f32 / (1 << 24) as f32
     }
 
-    /// PCG as a hash (Jarzynski and Olano, "Hash functions for GPU rendering",
-    /// JCGT 2020), nested over the inputs.
-    fn hash(self, x: u32, y: u32) -> u32 {
-        pcg(x.wrapping_add(pcg(y.wrapping_add(pcg(self.seed)))))
+    /// The part of a lattice point's hash that its row decides.
+    fn row(self, y: u32) -> u32 {
+        pcg(y.wrapping_add(pcg(self.seed)))
     }
 }
 
+/// PCG as a hash (Jarzynski and Olano, "Hash functions for GPU rendering",
+/// JCGT 2020). Nested over several inputs it has no visible pattern.
 fn pcg(input: u32) -> u32 {
     let state = input.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     (word >> 22) ^ word
 }
 
-/// One of sixteen unit vectors.
+/// One of sixteen unit vectors, by the highest bits of a hash. A table, for a
+/// branch on random bits is guessed wrong every other time.
 fn gradient(hash: u32) -> Vec2 {
-    const C1: f32 = 0.923_879_5;
-    const S1: f32 = 0.382_683_43;
+    const C: f32 = 0.923_879_5;
+    const S: f32 = 0.382_683_43;
     const D: f32 = std::f32::consts::FRAC_1_SQRT_2;
-    const QUARTER: [Vec2; 4] = [
-        Vec2::new(1.0, 0.0),
-        Vec2::new(C1, S1),
-        Vec2::new(D, D),
-        Vec2::new(S1, C1),
+    #[rustfmt::skip]
+    const DIRECTIONS: [[f32; 2]; 16] = [
+        [1.0, 0.0], [C, S], [D, D], [S, C], [0.0, 1.0], [-S, C], [-D, D], [-C, S],
+        [-1.0, 0.0], [-C, -S], [-D, -D], [-S, -C], [0.0, -1.0], [S, -C], [D, -D], [C, -S],
     ];
-    let vector = QUARTER[(hash >> 28 & 3) as usize];
-    match hash >> 30 {
-        0 => vector,
-        1 => vector.perp(),
-        2 => -vector,
-        _ => -vector.perp(),
-    }
+    Vec2::from_array(DIRECTIONS[(hash >> 28) as usize])
 }
 
 fn lerp(a: f32, b: f32, t: f32) -> f32 {
