@@ -1,10 +1,41 @@
 //! Frames, shader composition and the pass pipeline.
+//!
+//! The way of a picture: [`description`] says what a pipeline is, [`validate`] checks it,
+//! [`compile`] builds it, [`frame`] extracts what is visible from a world, [`scene`] holds it on
+//! the GPU, [`record`] runs the passes. [`Renderer`] joins them.
 #![warn(missing_docs)]
 
+pub mod binding;
+pub mod compile;
 pub mod description;
 pub mod format;
+pub mod frame;
+pub mod gpu;
+pub mod gpu_data;
+pub mod layout;
+pub mod pipeline;
 pub mod problem;
+pub mod queries;
+pub mod readback;
+pub mod record;
+pub mod reflection;
+mod renderer;
+pub mod scene;
+pub mod shader;
+pub mod statistics;
+pub mod targets;
+pub mod validate;
+pub mod variant;
+pub mod view;
+pub mod volumes;
 
+pub use compile::Compiler;
 pub use description::PipelineDesc;
 pub use format::Format;
+pub use gpu::{Gpu, GpuError, GpuOptions};
+pub use pipeline::Pipeline;
 pub use problem::{Place, Problem, Problems};
+pub use readback::TargetImage;
+pub use renderer::{RenderError, Renderer};
+pub use statistics::{FrameStatistics, PassStatistics};
+pub use view::View;

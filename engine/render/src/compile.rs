@@ -1,0 +1,548 @@
+//! From a description to GPU pipelines.
+//!
+//! Everything is checked before anything is built, and everything is built before anything is
+//! replaced: a pipeline that fails to compile leaves the one on screen alone.
+
+use std::collections::HashMap;
+
+use lightbench_assets::files::Files;
+
+use crate::binding::{Source, bind};
+use crate::description::{Blend, DepthCompare, PassDesc, PassKind, PipelineDesc, ShaderDesc};
+use crate::gpu::Gpu;
+use crate::layout::SceneLayout;
+use crate::pipeline::{CompiledPass, LightPipelines, ParameterBlock, PassPipelines, Pipeline};
+use crate::problem::{Problem, Problems};
+use crate::reflection::{FRAGMENT_ENTRY, Reflection, SampleKind, VERTEX_ENTRY, reflect};
+use crate::shader::{Shader, ShaderComposer};
+use crate::validate::validate;
+use crate::variant::Variant;
+
+/// The vertex stages that passes use whose shader brings none.
+const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
+const FULLSCREEN_VERTEX: &str = "shaders/vertex/fullscreen.wgsl";
+const LIGHT_VERTEX: &str = "shaders/vertex/light_volume.wgsl";
+
+/// A composed shader on the device.
+struct LoadedShader {
+    shader: Shader,
+    reflection: Reflection,
+    module: wgpu::ShaderModule,
+}
+
+/// Compiles descriptions. Keeps composed modules until [`Compiler::forget`] is told that files
+/// changed.
+pub struct Compiler {
+    gpu: Gpu,
+    layout: SceneLayout,
+    composer: Option<ShaderComposer>,
+    shaders: HashMap<(String, Vec<&'static str>, Vec<String>), LoadedShader>,
+}
+
+impl Compiler {
+    /// A compiler for one device.
+    pub fn new(gpu: &Gpu, layout: &SceneLayout) -> Self {
+        Self {
+            gpu: gpu.clone(),
+            layout: layout.clone(),
+            composer: None,
+            shaders: HashMap::new(),
+        }
+    }
+
+    /// Forgets shaders that depend on a changed file: that shader, or all after a module changed.
+    pub fn forget(&mut self, changed: &str) {
+        if changed.starts_with("shaders/lib/") {
+            self.composer = None;
+            self.shaders.clear();
+        } else {
+            self.shaders.retain(|(path, ..), _| path != changed);
+        }
+    }
+
+    /// Builds a pipeline.
+    ///
+    /// # Errors
+    /// All mistakes of the description; else the first mistake of each shader.
+    pub fn compile(&mut self, files: &Files, desc: &PipelineDesc) -> Result<Pipeline, Problems> {
+        validate(desc, &self.gpu)?;
+        let mut problems = Vec::new();
+        let mut passes = Vec::new();
+        for pass in &desc.passes {
+            match self.pass(files, desc, pass) {
+                Ok(compiled) => passes.push(compiled),
+                Err(found) => problems.extend(found),
+            }
+        }
+        // Passes that share a shader share its mistakes.
+        let mut seen = Vec::new();
+        problems.retain(|problem| {
+            !seen.contains(problem) && {
+                seen.push(problem.clone());
+                true
+            }
+        });
+        if problems.is_empty() {
+            Ok(Pipeline::new(desc.clone(), passes))
+        } else {
+            Err(Problems(problems))
+        }
+    }
+
+    /// Composes a shader unless it is known already.
+    fn load(
+        &mut self,
+        files: &Files,
+        path: &str,
+        variant: &[&'static str],
+        defines: &[String],
+    ) -> Result<&LoadedShader, Problem> {
+        let key = (path.to_owned(), variant.to_vec(), defines.to_vec());
+        if !self.shaders.contains_key(&key) {
+            let loaded = self.compose(files, path, variant, defines)?;
+            self.shaders.insert(key.clone(), loaded);
+        }
+        Ok(&self.shaders[&key])
+    }
+
+    fn compose(
+        &mut self,
+        files: &Files,
+        path: &str,
+        variant: &[&'static str],
+        defines: &[String],
+    ) -> Result<LoadedShader, Problem> {
+        let composer = match &mut self.composer {
+            Some(composer) => composer,
+            None => self
+                .composer
+                .insert(ShaderComposer::new(files, capabilities(&self.gpu))?),
+        };
+        let defines: Vec<&str> = variant
+            .iter()
+            .copied()
+            .chain(defines.iter().map(String::as_str))
+            .collect();
+        let shader = composer.compose(files, path, &defines)?;
+        let reflection = reflect(&shader.module);
+        let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
+        let module = self
+            .gpu
+            .guarded(|| {
+                self.gpu
+                    .device
+                    .create_shader_module(wgpu::ShaderModuleDescriptor {
+                        label: Some(path),
+                        source,
+                    })
+            })
+            .map_err(|error| {
+                Problem::new(
+                    crate::Place::file(path),
+                    format!("the driver refuses the shader: {error}"),
+                )
+            })?;
+        Ok(LoadedShader {
+            shader,
+            reflection,
+            module,
+        })
+    }
+
+    fn pass(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+    ) -> Result<CompiledPass, Vec<Problem>> {
+        let one = |problem: Problem| vec![problem];
+        // The shader's file may be missing: that is a mistake in the pipeline, not in the shader.
+        let shader = pass.shader.as_ref();
+        if let Some(shader) = shader
+            && !files.exists(&shader.path)
+        {
+            let known = files.list("shaders", "wgsl").unwrap_or_default();
+            let mut problem = Problem::new(
+                shader.at.clone(),
+                format!("there is no shader `{}`", shader.path),
+            );
+            problem.hint = crate::problem::suggestion(
+                &shader.path,
+                known.iter().map(|entry| entry.path.as_str()),
+            );
+            return Err(one(problem));
+        }
+
+        let mut sources = Vec::new();
+        let mut parameters = None;
+        if let Some(shader) = shader {
+            let loaded = self
+                .load(files, &shader.path, &[], &shader.defines)
+                .map_err(one)?;
+            sources = bind(desc, pass, &loaded.shader, &loaded.reflection)?;
+            parameters = loaded.reflection.parameters.clone();
+        }
+
+        let target_layout = self.target_layout(&sources, desc);
+        let parameters =
+            parameters.map(|(members, size)| ParameterBlock::new(&self.gpu, members, size));
+        let layout = self
+            .gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(&pass.name),
+                bind_group_layouts: &[
+                    Some(&self.layout.group),
+                    target_layout.as_ref(),
+                    parameters.as_ref().map(|parameters| &parameters.layout),
+                ],
+                immediate_size: 0,
+            });
+        let pipelines = match &pass.kind {
+            PassKind::Geometry { .. } => self.geometry(files, desc, pass, &layout),
+            PassKind::Lights { .. } => self.lights(files, desc, pass, &layout),
+            PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
+        }
+        .map_err(one)?;
+        Ok(CompiledPass::new(
+            pipelines,
+            sources,
+            target_layout,
+            parameters,
+        ))
+    }
+
+    /// One pipeline for each way in which the materials of a scene can be drawn.
+    fn geometry(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        layout: &wgpu::PipelineLayout,
+    ) -> Result<PassPipelines, Problem> {
+        let mut variants = Vec::with_capacity(Variant::COUNT);
+        for variant in Variant::all() {
+            // Without colours and without holes there is nothing for a fragment stage to do.
+            let fragment = pass
+                .shader
+                .as_ref()
+                .filter(|_| !pass.colors.is_empty() || variant.alpha_test());
+            let depth_only = fragment.is_none();
+            let state = State {
+                fragment_defines: variant.defines(),
+                vertex_path: GEOMETRY_VERTEX,
+                vertex_defines: if depth_only { &["POSITION_ONLY"] } else { &[] },
+                own_vertex: true,
+                cull: if variant.two_sided() {
+                    None
+                } else {
+                    Some(wgpu::Face::Back)
+                },
+                front: if variant.mirrored() {
+                    wgpu::FrontFace::Cw
+                } else {
+                    wgpu::FrontFace::Ccw
+                },
+                depth_compare: pass.depth.as_ref().map(|depth| compare(depth.compare)),
+            };
+            variants.push(self.build(files, desc, pass, fragment, layout, &state)?);
+        }
+        Ok(PassPipelines::Geometry(variants))
+    }
+
+    /// Back faces, front faces and the whole screen; which light takes which is decided per frame.
+    fn lights(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        layout: &wgpu::PipelineLayout,
+    ) -> Result<PassPipelines, Problem> {
+        let has_depth = pass.depth.is_some();
+        let mut build = |cull, test, defines: &'static [&'static str]| {
+            let state = State {
+                fragment_defines: &[],
+                vertex_path: LIGHT_VERTEX,
+                vertex_defines: defines,
+                own_vertex: false,
+                cull,
+                front: wgpu::FrontFace::Ccw,
+                depth_compare: has_depth.then_some(test),
+            };
+            self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)
+        };
+        use wgpu::CompareFunction::{Always, GreaterEqual, LessEqual};
+        // Depth is reversed, so "less" is farther. A back face lights what lies in front of it.
+        Ok(PassPipelines::Lights(LightPipelines {
+            back: build(Some(wgpu::Face::Front), LessEqual, &[])?,
+            front: build(Some(wgpu::Face::Back), GreaterEqual, &[])?,
+            screen: build(None, Always, &["FULL_SCREEN"])?,
+        }))
+    }
+
+    fn fullscreen(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        layout: &wgpu::PipelineLayout,
+    ) -> Result<PassPipelines, Problem> {
+        let state = State {
+            fragment_defines: &[],
+            vertex_path: FULLSCREEN_VERTEX,
+            vertex_defines: &[],
+            own_vertex: true,
+            cull: None,
+            front: wgpu::FrontFace::Ccw,
+            depth_compare: pass.depth.as_ref().map(|depth| compare(depth.compare)),
+        };
+        let built = self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)?;
+        Ok(PassPipelines::Fullscreen(built.pipeline))
+    }
+
+    fn build(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        fragment: Option<&ShaderDesc>,
+        layout: &wgpu::PipelineLayout,
+        state: &State,
+    ) -> Result<DrawPipeline, Problem> {
+        let mut own_vertex = false;
+        if let Some(shader) = fragment {
+            let loaded = self.load(files, &shader.path, state.fragment_defines, &shader.defines)?;
+            own_vertex = loaded.reflection.has_vertex && state.own_vertex;
+        }
+        if !own_vertex {
+            self.load(files, state.vertex_path, state.vertex_defines, &[])?;
+        }
+        let fragment = fragment.map(|shader| {
+            &self.shaders[&(
+                shader.path.clone(),
+                state.fragment_defines.to_vec(),
+                shader.defines.clone(),
+            )]
+        });
+        let vertex = match fragment.filter(|_| own_vertex) {
+            Some(own) => own,
+            None => {
+                &self.shaders[&(
+                    state.vertex_path.to_owned(),
+                    state.vertex_defines.to_vec(),
+                    Vec::new(),
+                )]
+            }
+        };
+
+        let streams = VertexStreams::of(&vertex.reflection);
+        let colors: Vec<_> = pass
+            .colors
+            .iter()
+            .filter_map(|color| {
+                let format = desc.target(&color.target)?.format.0;
+                Some(Some(wgpu::ColorTargetState {
+                    format,
+                    blend: blend(color.blend),
+                    write_mask: wgpu::ColorWrites::ALL,
+                }))
+            })
+            .collect();
+        let depth_stencil =
+            pass.depth
+                .as_ref()
+                .zip(state.depth_compare)
+                .and_then(|(depth, test)| {
+                    Some(wgpu::DepthStencilState {
+                        format: desc.target(&depth.target)?.format.0,
+                        depth_write_enabled: Some(depth.write),
+                        depth_compare: Some(test),
+                        stencil: wgpu::StencilState::default(),
+                        bias: wgpu::DepthBiasState::default(),
+                    })
+                });
+        let descriptor = wgpu::RenderPipelineDescriptor {
+            label: Some(&pass.name),
+            layout: Some(layout),
+            vertex: wgpu::VertexState {
+                module: &vertex.module,
+                entry_point: Some(VERTEX_ENTRY),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: streams.layouts(),
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: state.front,
+                cull_mode: state.cull,
+                ..Default::default()
+            },
+            depth_stencil,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: fragment.map(|fragment| wgpu::FragmentState {
+                module: &fragment.module,
+                entry_point: Some(FRAGMENT_ENTRY),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &colors,
+            }),
+            multiview_mask: None,
+            cache: None,
+        };
+        let pipeline = self
+            .gpu
+            .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
+            .map_err(|error| {
+                let at = pass.shader.as_ref().map_or(&pass.at, |shader| &shader.at);
+                Problem::new(
+                    at.clone(),
+                    format!("the pass `{}` can't be built: {error}", pass.name),
+                )
+            })?;
+        Ok(DrawPipeline {
+            pipeline,
+            attributes: streams == VertexStreams::All,
+        })
+    }
+
+    /// The layout of group 1, or none where the shader reads no target.
+    fn target_layout(
+        &self,
+        sources: &[(u32, Source)],
+        desc: &PipelineDesc,
+    ) -> Option<wgpu::BindGroupLayout> {
+        let features = self.gpu.device.features();
+        let filters = sources
+            .iter()
+            .any(|(_, source)| *source == Source::LinearSampler);
+        let entries: Vec<_> = sources
+            .iter()
+            .map(|(binding, source)| wgpu::BindGroupLayoutEntry {
+                binding: *binding,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: match source {
+                    Source::Target { target, kind } => wgpu::BindingType::Texture {
+                        sample_type: match kind {
+                            SampleKind::Depth => wgpu::TextureSampleType::Depth,
+                            SampleKind::Uint => wgpu::TextureSampleType::Uint,
+                            SampleKind::Sint => wgpu::TextureSampleType::Sint,
+                            SampleKind::Float => {
+                                let format = desc.target(target).map(|target| target.format.0);
+                                let native = format
+                                    .and_then(|format| format.sample_type(None, Some(features)));
+                                let filterable = native
+                                    == Some(wgpu::TextureSampleType::Float { filterable: true });
+                                wgpu::TextureSampleType::Float {
+                                    filterable: filters && filterable,
+                                }
+                            }
+                        },
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: false,
+                    },
+                    Source::LinearSampler => {
+                        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
+                    }
+                    Source::NearestSampler => {
+                        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)
+                    }
+                },
+                count: None,
+            })
+            .collect();
+        (!entries.is_empty()).then(|| {
+            self.gpu
+                .device
+                .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                    label: Some("targets"),
+                    entries: &entries,
+                })
+        })
+    }
+}
+
+/// A render pipeline, and whether it reads the second vertex stream.
+#[derive(Clone, Debug)]
+pub struct DrawPipeline {
+    /// The pipeline.
+    pub pipeline: wgpu::RenderPipeline,
+    /// Whether normals, texture coordinates and tangents must be bound.
+    pub attributes: bool,
+}
+
+/// What differs between the pipelines of one pass.
+struct State {
+    fragment_defines: &'static [&'static str],
+    vertex_path: &'static str,
+    vertex_defines: &'static [&'static str],
+    /// Whether the pass's shader may bring its own vertex stage.
+    own_vertex: bool,
+    cull: Option<wgpu::Face>,
+    front: wgpu::FrontFace,
+    depth_compare: Option<wgpu::CompareFunction>,
+}
+
+/// The vertex buffers that a vertex stage needs.
+#[derive(Clone, Copy, PartialEq)]
+enum VertexStreams {
+    None,
+    Positions,
+    All,
+}
+
+const POSITIONS: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: 12,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+};
+
+const ATTRIBUTES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: 36,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x2, 3 => Float32x4],
+};
+
+impl VertexStreams {
+    fn of(reflection: &Reflection) -> Self {
+        match reflection.vertex_inputs.last() {
+            None => Self::None,
+            Some(0) => Self::Positions,
+            Some(_) => Self::All,
+        }
+    }
+
+    fn layouts(self) -> &'static [Option<wgpu::VertexBufferLayout<'static>>] {
+        match self {
+            Self::None => &[],
+            Self::Positions => &[Some(POSITIONS)],
+            Self::All => &[Some(POSITIONS), Some(ATTRIBUTES)],
+        }
+    }
+}
+
+fn compare(test: DepthCompare) -> wgpu::CompareFunction {
+    match test {
+        DepthCompare::Nearer => wgpu::CompareFunction::GreaterEqual,
+        DepthCompare::Equal => wgpu::CompareFunction::Equal,
+        DepthCompare::Always => wgpu::CompareFunction::Always,
+    }
+}
+
+fn blend(blend: Blend) -> Option<wgpu::BlendState> {
+    let one = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    match blend {
+        Blend::Replace => None,
+        Blend::Add => Some(wgpu::BlendState {
+            color: one,
+            alpha: one,
+        }),
+        Blend::Over => Some(wgpu::BlendState::ALPHA_BLENDING),
+    }
+}
+
+/// What naga may accept: what the device can do.
+fn capabilities(_gpu: &Gpu) -> naga::valid::Capabilities {
+    // No shader here needs more than WebGPU's core.
+    naga::valid::Capabilities::empty()
+}

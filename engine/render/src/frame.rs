@@ -1,0 +1,278 @@
+//! A frame: what the systems hand to the renderer.
+//!
+//! Flat arrays in the layout that the GPU reads, filled again each frame without allocation once
+//! they have their size. Passes see the frame and never the world.
+
+use glam::{Mat4, Vec3};
+use lightbench_assets::Assets;
+use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
+use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
+
+use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
+use crate::variant::Variant;
+use crate::view::View;
+use crate::volumes::{self, VolumeDraw, VolumeKind};
+
+/// The view as the choice of light volumes needs it.
+#[derive(Clone, Debug)]
+pub struct ViewVolume {
+    /// World to view.
+    pub view: Mat4,
+    /// Camera position.
+    pub position: Vec3,
+    /// Unit vector along which the camera looks.
+    pub forward: Vec3,
+    /// What it shows.
+    pub frustum: Frustum,
+    /// Near plane, metres.
+    pub near: f32,
+    /// Far plane, metres.
+    pub far: f32,
+    /// Distance from the camera to a corner of the near plane.
+    pub near_corner: f32,
+    /// Focal length in half picture widths.
+    pub focal_x: f32,
+    /// Focal length in half picture heights.
+    pub focal_y: f32,
+}
+
+/// One instanced draw call.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshDraw {
+    /// Which pipeline of the pass.
+    pub variant: Variant,
+    /// Which mesh.
+    pub mesh: MeshId,
+    /// Which entries of [`Frame::drawn`].
+    pub objects: std::ops::Range<u32>,
+}
+
+/// Everything that one frame draws.
+#[derive(Default)]
+pub struct Frame {
+    /// For the uniform buffer.
+    pub data: FrameData,
+    /// Objects in drawing order.
+    pub drawn: Vec<DrawnObject>,
+    /// Lists of lights.
+    pub object_lights: Vec<u32>,
+    /// Light volumes in drawing order.
+    pub volumes: Vec<LightVolumeData>,
+    /// Draw calls of meshes.
+    pub mesh_draws: Vec<MeshDraw>,
+    /// Draw calls of light volumes.
+    pub volume_draws: Vec<VolumeDraw>,
+    /// Sum over the drawn lights of the share of the picture that each covers at most.
+    pub light_coverage: f64,
+    visible: Vec<u32>,
+    order: Vec<(Variant, MeshId, u32)>,
+    kinds: Vec<(VolumeKind, LightVolumeData)>,
+}
+
+impl Default for FrameData {
+    fn default() -> Self {
+        bytemuck::Zeroable::zeroed()
+    }
+}
+
+/// What a frame is made for.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameRequest {
+    /// The camera.
+    pub view: View,
+    /// Output size, pixels.
+    pub size: (u32, u32),
+    /// Seconds since the scene began.
+    pub time: f32,
+    /// Frames since the renderer began.
+    pub index: u32,
+    /// Gather the lights that reach each object; otherwise every object's list is all lights.
+    pub gather_lights: bool,
+    /// Bound lights by volumes; otherwise each covers the screen.
+    pub light_volumes: bool,
+}
+
+impl Frame {
+    /// Fills the frame. The world's matrices and bounds must be up to date, and `lights` and
+    /// `instances` in the order of their components' rows.
+    pub fn extract(
+        &mut self,
+        world: &World,
+        assets: &Assets,
+        instances: &[InstanceData],
+        lights: &[LightData],
+        request: &FrameRequest,
+    ) {
+        let volume = self.camera(request, lights.len());
+        self.objects(world, assets, instances, &volume);
+        self.light_lists(world, lights, request.gather_lights);
+        self.light_volumes(lights, &volume, request.light_volumes);
+    }
+
+    fn camera(&mut self, request: &FrameRequest, light_count: usize) -> ViewVolume {
+        let View {
+            view, near, far, ..
+        } = request.view;
+        let (width, height) = (request.size.0.max(1) as f32, request.size.1.max(1) as f32);
+        let projection = request.view.projection(width / height);
+        let view_projection = projection * view;
+        let to_world = view.inverse();
+        self.data = FrameData {
+            view,
+            projection,
+            view_projection,
+            inverse_view_projection: view_projection.inverse(),
+            camera_position: to_world.w_axis.truncate(),
+            time: request.time,
+            resolution: [width, height],
+            near,
+            far,
+            light_count: light_count as u32,
+            frame_index: request.index,
+            padding: [0; 2],
+        };
+        let (focal_x, focal_y) = (projection.x_axis.x, projection.y_axis.y);
+        ViewVolume {
+            view,
+            position: self.data.camera_position,
+            forward: -to_world.z_axis.truncate(),
+            frustum: Frustum::from_view_projection(view_projection),
+            near,
+            far,
+            near_corner: near * Vec3::new(1.0 / focal_x, 1.0 / focal_y, 1.0).length(),
+            focal_x,
+            focal_y,
+        }
+    }
+
+    /// Culls, sorts by pipeline variant and mesh, and groups into instanced draws.
+    fn objects(
+        &mut self,
+        world: &World,
+        assets: &Assets,
+        instances: &[InstanceData],
+        volume: &ViewVolume,
+    ) {
+        let bounds = world.columns::<WorldBounds>();
+        let b = bounds.slices();
+        let spheres = Spheres {
+            x: b.x,
+            y: b.y,
+            z: b.z,
+            radius: b.radius,
+        };
+        cull_spheres(&volume.frustum, spheres, &mut self.visible);
+
+        let renderers = world.columns::<MeshRenderer>();
+        let r = renderers.slices();
+        self.order.clear();
+        for &row in &self.visible {
+            let index = row as usize;
+            if !r.visible[index] {
+                continue;
+            }
+            let (two_sided, alpha_test) = material_traits(assets, r.material[index]);
+            let variant = Variant::new(two_sided, alpha_test, is_mirrored(&instances[index]));
+            self.order.push((variant, r.mesh[index], row));
+        }
+        self.order.sort_unstable();
+
+        self.drawn.clear();
+        self.mesh_draws.clear();
+        for &(variant, mesh, row) in &self.order {
+            let at = self.drawn.len() as u32;
+            self.drawn.push(DrawnObject {
+                instance: row,
+                first_light: 0,
+                light_count: 0,
+                reserved: 0,
+            });
+            match self.mesh_draws.last_mut() {
+                Some(draw) if draw.variant == variant && draw.mesh == mesh => {
+                    draw.objects.end = at + 1
+                }
+                _ => self.mesh_draws.push(MeshDraw {
+                    variant,
+                    mesh,
+                    objects: at..at + 1,
+                }),
+            }
+        }
+    }
+
+    /// Gives each object its list of lights, in the order of light indices.
+    fn light_lists(&mut self, world: &World, lights: &[LightData], gather: bool) {
+        self.object_lights.clear();
+        if !gather {
+            self.object_lights.extend(0..lights.len() as u32);
+            for object in &mut self.drawn {
+                object.light_count = lights.len() as u32;
+            }
+            return;
+        }
+        let bounds = world.columns::<WorldBounds>();
+        let b = bounds.slices();
+        for object in &mut self.drawn {
+            let row = object.instance as usize;
+            let center = Vec3::new(b.x[row], b.y[row], b.z[row]);
+            let half = Vec3::new(b.half_x[row], b.half_y[row], b.half_z[row]);
+            object.first_light = self.object_lights.len() as u32;
+            for (index, light) in lights.iter().enumerate() {
+                // Distance from the light to the box, by clamping (Arvo 1990, Graphics Gems).
+                let outside = ((light.position - center).abs() - half).max(Vec3::ZERO);
+                if !volumes::is_bounded(light)
+                    || outside.length_squared() < light.range * light.range
+                {
+                    self.object_lights.push(index as u32);
+                }
+            }
+            object.light_count = self.object_lights.len() as u32 - object.first_light;
+        }
+    }
+
+    /// Chooses how each light is drawn, and groups equal choices into instanced draws.
+    fn light_volumes(&mut self, lights: &[LightData], view: &ViewVolume, bounded: bool) {
+        self.kinds.clear();
+        self.light_coverage = 0.0;
+        for (index, light) in lights.iter().enumerate() {
+            if let Some(found) = volumes::volume(light, index as u32, view, bounded) {
+                self.light_coverage += if bounded {
+                    volumes::coverage(light, view)
+                } else {
+                    1.0
+                };
+                self.kinds.push(found);
+            }
+        }
+        // Equal kinds stay in the order of light indices, so that sums do too.
+        self.kinds
+            .sort_unstable_by_key(|(kind, data)| (*kind, data.light));
+        self.volumes.clear();
+        self.volume_draws.clear();
+        for (kind, data) in &self.kinds {
+            let at = self.volumes.len() as u32;
+            self.volumes.push(*data);
+            match self.volume_draws.last_mut() {
+                Some(draw) if draw.kind == *kind => draw.volumes.end = at + 1,
+                _ => self.volume_draws.push(VolumeDraw {
+                    kind: *kind,
+                    volumes: at..at + 1,
+                }),
+            }
+        }
+    }
+}
+
+fn material_traits(assets: &Assets, id: MaterialId) -> (bool, bool) {
+    assets.material(id).map_or((false, false), |material| {
+        (material.two_sided, material.alpha_cutoff.is_some())
+    })
+}
+
+/// Whether the world matrix turns the winding of triangles round.
+fn is_mirrored(instance: &InstanceData) -> bool {
+    let [x, y, z] = instance
+        .world_rows
+        .map(|row| Vec3::new(row[0], row[1], row[2]));
+    x.dot(y.cross(z)) < 0.0
+}

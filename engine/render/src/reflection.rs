@@ -1,0 +1,268 @@
+//! What a composed shader asks for: bindings, parameters, vertex inputs and fragment outputs.
+
+use std::collections::BTreeSet;
+
+use naga::{AddressSpace, Binding, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
+
+/// The kind of numbers in a texture or a fragment output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleKind {
+    /// Floats and normalised integers.
+    Float,
+    /// Unsigned integers.
+    Uint,
+    /// Signed integers.
+    Sint,
+    /// Depth.
+    Depth,
+}
+
+impl SampleKind {
+    /// What a texture format holds when it is bound for reading.
+    pub fn of_format(format: wgpu::TextureFormat) -> Self {
+        if format.has_depth_aspect() {
+            return Self::Depth;
+        }
+        match format.sample_type(None, None) {
+            Some(wgpu::TextureSampleType::Uint) => Self::Uint,
+            Some(wgpu::TextureSampleType::Sint) => Self::Sint,
+            _ => Self::Float,
+        }
+    }
+
+    /// The WGSL texture type that reads it.
+    pub fn texture_type(self) -> &'static str {
+        match self {
+            Self::Float => "texture_2d<f32>",
+            Self::Uint => "texture_2d<u32>",
+            Self::Sint => "texture_2d<i32>",
+            Self::Depth => "texture_depth_2d",
+        }
+    }
+}
+
+/// What a variable of group 1 is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BindingKind {
+    /// A 2D texture.
+    Texture(SampleKind),
+    /// A sampler.
+    Sampler,
+    /// Something that passes can't bind; its WGSL type in words.
+    Unsupported(&'static str),
+}
+
+/// A variable of group 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetBinding {
+    /// The variable's name.
+    pub name: String,
+    /// Its binding number.
+    pub binding: u32,
+    /// What it is.
+    pub kind: BindingKind,
+    /// Byte offset of its declaration in the composed text, if known.
+    pub span: Option<usize>,
+}
+
+/// A member of the parameter structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterMember {
+    /// The parameter's name.
+    pub name: String,
+    /// Byte offset.
+    pub offset: u32,
+    /// `f32` or `u32`; anything else is `None`.
+    pub kind: Option<SampleKind>,
+}
+
+/// Everything that a pass must know of its shader.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reflection {
+    /// Whether there is a `vertex_main`.
+    pub has_vertex: bool,
+    /// Whether there is a `fragment_main`.
+    pub has_fragment: bool,
+    /// Locations that the vertex stage reads.
+    pub vertex_inputs: BTreeSet<u32>,
+    /// Location and kind of each fragment output, by location.
+    pub outputs: Vec<(u32, SampleKind)>,
+    /// Group 1.
+    pub bindings: Vec<TargetBinding>,
+    /// Members of `@group(2) @binding(0) var<uniform> parameters`, and the structure's size.
+    pub parameters: Option<(Vec<ParameterMember>, u32)>,
+}
+
+/// The entry points that every pass uses.
+pub const VERTEX_ENTRY: &str = "vertex_main";
+/// See [`VERTEX_ENTRY`].
+pub const FRAGMENT_ENTRY: &str = "fragment_main";
+
+/// Reads a module.
+pub fn reflect(module: &naga::Module) -> Reflection {
+    let mut reflection = Reflection::default();
+    for entry in &module.entry_points {
+        match entry.stage {
+            ShaderStage::Vertex if entry.name == VERTEX_ENTRY => {
+                reflection.has_vertex = true;
+                for argument in &entry.function.arguments {
+                    locations(
+                        module,
+                        argument.ty,
+                        argument.binding.as_ref(),
+                        &mut |location, _| {
+                            reflection.vertex_inputs.insert(location);
+                        },
+                    );
+                }
+            }
+            ShaderStage::Fragment if entry.name == FRAGMENT_ENTRY => {
+                reflection.has_fragment = true;
+                if let Some(result) = &entry.function.result {
+                    locations(
+                        module,
+                        result.ty,
+                        result.binding.as_ref(),
+                        &mut |location, kind| {
+                            reflection.outputs.push((location, kind));
+                        },
+                    );
+                }
+                reflection.outputs.sort_by_key(|(location, _)| *location);
+            }
+            _ => {}
+        }
+    }
+    for (handle, global) in module.global_variables.iter() {
+        let Some(binding) = &global.binding else {
+            continue;
+        };
+        let name = global.name.clone().unwrap_or_default();
+        let inner = &module.types[global.ty].inner;
+        match (binding.group, binding.binding) {
+            (1, number) => reflection.bindings.push(TargetBinding {
+                name,
+                binding: number,
+                kind: binding_kind(inner, global.space),
+                span: module
+                    .global_variables
+                    .get_span(handle)
+                    .to_range()
+                    .map(|range| range.start),
+            }),
+            (2, 0) => {
+                if let TypeInner::Struct { members, span } = inner {
+                    let members = members.iter().map(|member| ParameterMember {
+                        name: member.name.clone().unwrap_or_default(),
+                        offset: member.offset,
+                        kind: match &module.types[member.ty].inner {
+                            TypeInner::Scalar(scalar) if scalar.width == 4 => {
+                                scalar_kind(scalar.kind)
+                            }
+                            _ => None,
+                        },
+                    });
+                    reflection.parameters = Some((members.collect(), *span));
+                }
+            }
+            _ => {}
+        }
+    }
+    reflection.bindings.sort_by_key(|binding| binding.binding);
+    reflection
+}
+
+fn scalar_kind(kind: ScalarKind) -> Option<SampleKind> {
+    match kind {
+        ScalarKind::Float => Some(SampleKind::Float),
+        ScalarKind::Uint => Some(SampleKind::Uint),
+        ScalarKind::Sint => Some(SampleKind::Sint),
+        _ => None,
+    }
+}
+
+fn binding_kind(inner: &TypeInner, space: AddressSpace) -> BindingKind {
+    match inner {
+        TypeInner::Image {
+            dim: ImageDimension::D2,
+            arrayed: false,
+            class,
+        } => match class {
+            ImageClass::Sampled { kind, multi: false } => {
+                scalar_kind(*kind).map_or(BindingKind::Unsupported("texture"), BindingKind::Texture)
+            }
+            ImageClass::Depth { multi: false } => BindingKind::Texture(SampleKind::Depth),
+            ImageClass::Storage { .. } => BindingKind::Unsupported("storage texture"),
+            _ => BindingKind::Unsupported("multisampled texture"),
+        },
+        TypeInner::Image { .. } => BindingKind::Unsupported("texture that is not 2D"),
+        TypeInner::Sampler { .. } => BindingKind::Sampler,
+        _ if space == AddressSpace::Uniform => BindingKind::Unsupported("uniform buffer"),
+        _ => BindingKind::Unsupported("buffer"),
+    }
+}
+
+/// Calls `found` for every `@location` of a type, looking into structures.
+fn locations(
+    module: &naga::Module,
+    ty: naga::Handle<naga::Type>,
+    binding: Option<&Binding>,
+    found: &mut impl FnMut(u32, SampleKind),
+) {
+    if let Some(Binding::Location { location, .. }) = binding {
+        let kind = match &module.types[ty].inner {
+            TypeInner::Scalar(scalar) | TypeInner::Vector { scalar, .. } => {
+                scalar_kind(scalar.kind)
+            }
+            _ => None,
+        };
+        found(*location, kind.unwrap_or(SampleKind::Float));
+    } else if let TypeInner::Struct { members, .. } = &module.types[ty].inner {
+        for member in members {
+            locations(module, member.ty, member.binding.as_ref(), found);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn finds_bindings_parameters_inputs_and_outputs() {
+        let module = naga::front::wgsl::parse_str(
+            "struct Parameters { exposure: f32, curve: u32 }
+             struct Out { @location(1) b: vec2u, @location(0) a: vec4f }
+             @group(1) @binding(3) var g_normal: texture_2d<u32>;
+             @group(1) @binding(0) var depth: texture_depth_2d;
+             @group(2) @binding(0) var<uniform> parameters: Parameters;
+             @vertex fn vertex_main(@location(2) uv: vec2f) -> @builtin(position) vec4f { return vec4f(uv, 0, 1); }
+             @fragment fn fragment_main() -> Out { return Out(vec2u(0), vec4f(parameters.exposure)); }",
+        )
+        .unwrap();
+        let found = reflect(&module);
+        assert_eq!(found.vertex_inputs, BTreeSet::from([2]));
+        assert_eq!(
+            found.outputs,
+            [(0, SampleKind::Float), (1, SampleKind::Uint)]
+        );
+        let bindings: Vec<_> = found
+            .bindings
+            .iter()
+            .map(|b| (b.name.as_str(), b.binding, &b.kind))
+            .collect();
+        assert_eq!(
+            bindings,
+            [
+                ("depth", 0, &BindingKind::Texture(SampleKind::Depth)),
+                ("g_normal", 3, &BindingKind::Texture(SampleKind::Uint)),
+            ]
+        );
+        let (members, size) = found.parameters.unwrap();
+        assert_eq!(
+            (members[1].name.as_str(), members[1].offset, size),
+            ("curve", 4, 8)
+        );
+    }
+}

@@ -1,0 +1,261 @@
+//! The renderer: a device, a scene on it, and frames through pipelines.
+
+use std::time::Instant;
+
+use lightbench_assets::Assets;
+use lightbench_world::{World, systems};
+
+use crate::compile::Compiler;
+use crate::description::PassKind;
+use crate::frame::{Frame, FrameRequest};
+use crate::gpu::{Gpu, GpuError};
+use crate::layout::SceneLayout;
+use crate::pipeline::Pipeline;
+use crate::queries::{Measured, Queries};
+use crate::readback::{TargetImage, read_bytes, read_image};
+use crate::record::{Recording, record};
+use crate::scene::Scene;
+use crate::statistics::FrameStatistics;
+use crate::view::View;
+
+/// Draws worlds through pipelines.
+pub struct Renderer {
+    gpu: Gpu,
+    layout: SceneLayout,
+    scene: Scene,
+    frame: Frame,
+    queries: Queries,
+    statistics: FrameStatistics,
+    index: u32,
+}
+
+/// Why a frame could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The device failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The scene does not fit the device.
+    #[error("{0}")]
+    Scene(String),
+    /// A target was asked for that the pipeline does not have, or before the first frame.
+    #[error("the pipeline has no target `{0}` yet")]
+    NoTarget(String),
+    /// The size asked for is beyond the device.
+    #[error(
+        "{width} × {height} is more than this device draws; its limit is {limit} in each direction"
+    )]
+    Size {
+        /// Asked for.
+        width: u32,
+        /// Asked for.
+        height: u32,
+        /// The device's limit.
+        limit: u32,
+    },
+}
+
+impl Renderer {
+    /// A renderer with an empty scene.
+    pub fn new(gpu: Gpu) -> Self {
+        let layout = SceneLayout::new(&gpu);
+        let scene = Scene::new(&gpu, &layout);
+        let queries = Queries::new(&gpu);
+        Self {
+            scene,
+            queries,
+            layout,
+            gpu,
+            frame: Frame::default(),
+            statistics: FrameStatistics::default(),
+            index: 0,
+        }
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// A compiler of pipelines for this renderer; it can work on another thread.
+    pub fn compiler(&self) -> Compiler {
+        Compiler::new(&self.gpu, &self.layout)
+    }
+
+    /// Tells the renderer that another world and other assets come next.
+    pub fn reset_scene(&mut self) {
+        self.scene.reset();
+    }
+
+    /// What had to be changed for the scene to fit the device, once.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        self.scene.take_warnings()
+    }
+
+    /// Draws one frame and submits it. Results of queries come later: [`Renderer::poll`].
+    ///
+    /// Runs the world's systems, extracts what is visible, uploads what changed and records the
+    /// passes. `size` is in pixels, `time` in seconds since the scene began.
+    ///
+    /// # Errors
+    /// When the scene does not fit the device, or the device failed.
+    pub fn render(
+        &mut self,
+        world: &mut World,
+        assets: &Assets,
+        pipeline: &mut Pipeline,
+        view: &View,
+        size: (u32, u32),
+        time: f64,
+    ) -> Result<&FrameStatistics, RenderError> {
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
+        let (width, height) = (size.0.max(1), size.1.max(1));
+        if width > limit || height > limit {
+            return Err(RenderError::Size {
+                width,
+                height,
+                limit,
+            });
+        }
+        self.gpu.check()?;
+
+        let started = Instant::now();
+        systems::update_world_matrices(world);
+        systems::update_bounds(world, assets.mesh_bounds());
+        self.scene.sync_assets(assets).map_err(RenderError::Scene)?;
+        self.scene.sync_world(world);
+        let light_volumes = pipeline
+            .desc
+            .passes
+            .iter()
+            .all(|pass| pass.kind != PassKind::Lights { volumes: false });
+        let request = FrameRequest {
+            view: *view,
+            size: (width, height),
+            time: time as f32,
+            index: self.index,
+            gather_lights: pipeline.gathers_lights(),
+            light_volumes,
+        };
+        self.frame.extract(
+            world,
+            assets,
+            self.scene.instances(),
+            self.scene.lights(),
+            &request,
+        );
+        self.statistics.extract_ms = started.elapsed().as_secs_f64() * 1e3;
+
+        let started = Instant::now();
+        let target_bytes = pipeline.prepare(&self.gpu, (width, height)).bytes();
+        let group = self.scene.upload(&self.frame).clone();
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.queries.begin(self.index, pipeline.desc.passes.len());
+        let recording = Recording {
+            frame: &self.frame,
+            meshes: &self.scene.meshes,
+            scene: &group,
+        };
+        record(
+            pipeline,
+            &recording,
+            &mut encoder,
+            &self.queries,
+            &mut self.statistics.passes,
+        );
+        self.queries.resolve(&mut encoder);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.queries.submitted();
+
+        self.statistics.record_ms = started.elapsed().as_secs_f64() * 1e3;
+        self.statistics.gpu_ms = None;
+        self.statistics.objects = self.frame.drawn.len() as u32;
+        self.statistics.lights = self.frame.volumes.len() as u32;
+        self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
+        self.statistics.target_bytes = target_bytes;
+        self.index = self.index.wrapping_add(1);
+        Ok(&self.statistics)
+    }
+
+    /// The number that the next frame will have in [`Measured::frame`].
+    pub fn next_frame(&self) -> u32 {
+        self.index
+    }
+
+    /// The frame as it was last extracted.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// Query results that have come back, without waiting.
+    ///
+    /// # Errors
+    /// When the device failed.
+    pub fn poll(&mut self) -> Result<Vec<Measured>, GpuError> {
+        if let Err(error) = self.gpu.device.poll(wgpu::PollType::Poll) {
+            return Err(GpuError::Driver(error.to_string()));
+        }
+        self.gpu.check()?;
+        Ok(self.queries.collect())
+    }
+
+    /// Waits for all frames and returns the query results.
+    ///
+    /// # Errors
+    /// When the device failed or takes longer than `seconds`.
+    pub fn finish(&mut self, seconds: u64) -> Result<Vec<Measured>, GpuError> {
+        self.gpu.wait(seconds)?;
+        Ok(self.queries.collect())
+    }
+
+    /// The display-ready picture of the last frame, 8 bits a channel, sRGB, rows from the top.
+    ///
+    /// # Errors
+    /// Before the first frame, or when the device failed.
+    pub fn read_output(&self, pipeline: &Pipeline) -> Result<(u32, u32, Vec<u8>), RenderError> {
+        let name = pipeline
+            .desc
+            .output
+            .as_ref()
+            .map_or("output", |output| output.name.as_str());
+        let texture = self.texture(pipeline, name)?;
+        Ok((
+            texture.width(),
+            texture.height(),
+            read_bytes(&self.gpu, texture)?,
+        ))
+    }
+
+    /// The linear HDR picture of the last frame, if the pipeline names one.
+    ///
+    /// # Errors
+    /// As [`Renderer::read_output`].
+    pub fn read_hdr(&self, pipeline: &Pipeline) -> Result<Option<TargetImage>, RenderError> {
+        match &pipeline.desc.hdr {
+            Some(hdr) => self.read_target(pipeline, &hdr.name).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Any target of the last frame.
+    ///
+    /// # Errors
+    /// As [`Renderer::read_output`].
+    pub fn read_target(&self, pipeline: &Pipeline, name: &str) -> Result<TargetImage, RenderError> {
+        Ok(read_image(&self.gpu, self.texture(pipeline, name)?)?)
+    }
+
+    fn texture<'a>(
+        &self,
+        pipeline: &'a Pipeline,
+        name: &str,
+    ) -> Result<&'a wgpu::Texture, RenderError> {
+        let target = pipeline.targets().and_then(|targets| targets.get(name));
+        target
+            .map(|target| &target.texture)
+            .ok_or_else(|| RenderError::NoTarget(name.to_owned()))
+    }
+}

@@ -1,0 +1,192 @@
+//! All meshes in three buffers: positions, other attributes, indices.
+//!
+//! Passes that need depth alone read positions alone, at a quarter of the memory traffic.
+
+use lightbench_assets::{Assets, Mesh};
+use lightbench_world::MeshId;
+
+use crate::gpu::Gpu;
+use crate::gpu_data::VertexAttributes;
+use crate::volumes;
+
+/// Where a mesh lies in the buffers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MeshRange {
+    /// Its indices.
+    pub indices: std::ops::Range<u32>,
+    /// What is added to each index.
+    pub base_vertex: i32,
+}
+
+/// The unit shapes of light volumes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Shape {
+    /// A sphere that encloses the unit sphere.
+    Sphere,
+    /// A cone with its apex at the origin, along −z, of length 1 and base radius 1.
+    Cone,
+}
+
+/// Meshes and shapes on the device.
+pub struct MeshPool {
+    gpu: Gpu,
+    positions: wgpu::Buffer,
+    attributes: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    ranges: Vec<MeshRange>,
+    shapes: [MeshRange; 2],
+    revisions: Option<Vec<u64>>,
+}
+
+impl MeshPool {
+    /// A pool that holds the shapes alone.
+    pub fn new(gpu: &Gpu) -> Self {
+        let empty = |usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("no meshes"),
+                size: 4,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        Self {
+            gpu: gpu.clone(),
+            positions: empty(wgpu::BufferUsages::VERTEX),
+            attributes: empty(wgpu::BufferUsages::VERTEX),
+            indices: empty(wgpu::BufferUsages::INDEX),
+            ranges: Vec::new(),
+            shapes: Default::default(),
+            revisions: None,
+        }
+    }
+
+    /// Uploads all meshes if any of them changed.
+    ///
+    /// # Errors
+    /// When they are larger than the device's buffers.
+    pub fn sync(&mut self, assets: &Assets) -> Result<(), String> {
+        let revisions: Vec<u64> = assets.meshes().iter().map(|entry| entry.revision).collect();
+        if self.revisions.as_ref() == Some(&revisions) {
+            return Ok(());
+        }
+        let mut packed = Packed::default();
+        self.shapes = [
+            packed.shape(&volumes::unit_sphere()),
+            packed.shape(&volumes::unit_cone()),
+        ];
+        self.ranges = assets
+            .meshes()
+            .iter()
+            .map(|entry| packed.mesh(&entry.value))
+            .collect();
+
+        let largest = self.gpu.device.limits().max_buffer_size;
+        let attribute_bytes = (packed.attributes.len() * size_of::<VertexAttributes>()) as u64;
+        if attribute_bytes > largest {
+            return Err(format!(
+                "the scene's {} vertices take {} MiB in one buffer; this device allows {} MiB. Use fewer or smaller meshes",
+                packed.attributes.len(),
+                attribute_bytes >> 20,
+                largest >> 20
+            ));
+        }
+        use wgpu::util::DeviceExt as _;
+        let upload = |label, contents: &[u8], usage| {
+            self.gpu
+                .device
+                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some(label),
+                    contents,
+                    usage,
+                })
+        };
+        self.positions = upload(
+            "positions",
+            bytemuck::cast_slice(&packed.positions),
+            wgpu::BufferUsages::VERTEX,
+        );
+        self.attributes = upload(
+            "attributes",
+            bytemuck::cast_slice(&packed.attributes),
+            wgpu::BufferUsages::VERTEX,
+        );
+        self.indices = upload(
+            "indices",
+            bytemuck::cast_slice(&packed.indices),
+            wgpu::BufferUsages::INDEX,
+        );
+        self.revisions = Some(revisions);
+        Ok(())
+    }
+
+    /// Uploads again at the next [`MeshPool::sync`].
+    pub fn forget(&mut self) {
+        self.revisions = None;
+    }
+
+    /// Where a mesh lies; none for an id that no mesh has.
+    pub fn range(&self, mesh: MeshId) -> Option<&MeshRange> {
+        self.ranges.get(mesh.0 as usize)
+    }
+
+    /// Where a shape lies.
+    pub fn shape(&self, shape: Shape) -> &MeshRange {
+        &self.shapes[shape as usize]
+    }
+
+    /// Binds the vertex streams and the indices.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, attributes: bool) {
+        pass.set_vertex_buffer(0, self.positions.slice(..));
+        if attributes {
+            pass.set_vertex_buffer(1, self.attributes.slice(..));
+        }
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.positions.size() + self.attributes.size() + self.indices.size()
+    }
+}
+
+/// Meshes one after the other.
+#[derive(Default)]
+struct Packed {
+    positions: Vec<[f32; 3]>,
+    attributes: Vec<VertexAttributes>,
+    indices: Vec<u32>,
+}
+
+impl Packed {
+    fn mesh(&mut self, mesh: &Mesh) -> MeshRange {
+        let range = self.range(&mesh.indices);
+        self.positions
+            .extend(mesh.positions.iter().map(|p| p.to_array()));
+        self.attributes
+            .extend((0..mesh.positions.len()).map(|i| VertexAttributes {
+                normal: mesh.normals[i].to_array(),
+                uv: mesh.uvs[i].to_array(),
+                tangent: mesh.tangents[i].to_array(),
+            }));
+        range
+    }
+
+    /// A shape has positions only; its attributes are padding that nothing reads.
+    fn shape(&mut self, (positions, indices): &(Vec<glam::Vec3>, Vec<u32>)) -> MeshRange {
+        let range = self.range(indices);
+        self.positions
+            .extend(positions.iter().map(|p| p.to_array()));
+        self.attributes
+            .resize(self.positions.len(), bytemuck::Zeroable::zeroed());
+        range
+    }
+
+    fn range(&mut self, indices: &[u32]) -> MeshRange {
+        let first = self.indices.len() as u32;
+        self.indices.extend_from_slice(indices);
+        MeshRange {
+            indices: first..self.indices.len() as u32,
+            base_vertex: self.positions.len() as i32,
+        }
+    }
+}

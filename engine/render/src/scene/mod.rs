@@ -1,0 +1,240 @@
+//! The scene on the GPU: everything of group 0, uploaded only where it changed.
+
+mod buffer;
+mod meshes;
+mod rows;
+mod textures;
+
+use lightbench_assets::Assets;
+use lightbench_world::World;
+
+pub use buffer::RowBuffer;
+pub use meshes::{MeshPool, MeshRange, Shape};
+
+use crate::frame::Frame;
+use crate::gpu::Gpu;
+use crate::gpu_data::{
+    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, MaterialData, NO_TEXTURE,
+};
+use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
+use rows::SceneRows;
+use textures::TexturePool;
+
+/// The buffers and textures that every pass reads.
+pub struct Scene {
+    gpu: Gpu,
+    layout: SceneLayout,
+    /// All meshes, and the unit shapes of light volumes.
+    pub meshes: MeshPool,
+    textures: TexturePool,
+    rows: SceneRows,
+    frame: wgpu::Buffer,
+    materials: RowBuffer<MaterialData>,
+    instances: RowBuffer<InstanceData>,
+    lights: RowBuffer<LightData>,
+    drawn: RowBuffer<DrawnObject>,
+    object_lights: RowBuffer<u32>,
+    volumes: RowBuffer<LightVolumeData>,
+    sampler: wgpu::Sampler,
+    group: Option<wgpu::BindGroup>,
+    assets_revision: Option<u64>,
+    warnings: Vec<String>,
+}
+
+impl Scene {
+    /// An empty scene on a device.
+    pub fn new(gpu: &Gpu, layout: &SceneLayout) -> Self {
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("materials"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            // Software drivers pay for every extra sample; hardware hardly does.
+            anisotropy_clamp: if gpu.summary.software { 1 } else { 8 },
+            ..Default::default()
+        });
+        let frame = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("frame"),
+            size: size_of::<FrameData>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self {
+            gpu: gpu.clone(),
+            layout: layout.clone(),
+            meshes: MeshPool::new(gpu),
+            textures: TexturePool::new(gpu),
+            rows: SceneRows::default(),
+            frame,
+            materials: RowBuffer::new(gpu, "materials"),
+            instances: RowBuffer::new(gpu, "instances"),
+            lights: RowBuffer::new(gpu, "lights"),
+            drawn: RowBuffer::new(gpu, "drawn objects"),
+            object_lights: RowBuffer::new(gpu, "object lights"),
+            volumes: RowBuffer::new(gpu, "light volumes"),
+            sampler,
+            group: None,
+            assets_revision: None,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Uploads meshes, textures and materials that changed. Warnings (a texture that had to be
+    /// resampled) are kept for [`Scene::take_warnings`].
+    ///
+    /// # Errors
+    /// A sentence that says which asset the device can't hold.
+    pub fn sync_assets(&mut self, assets: &Assets) -> Result<(), String> {
+        if self.assets_revision == Some(assets.revision()) {
+            return Ok(());
+        }
+        self.meshes.sync(assets)?;
+        if self.textures.sync(assets, &mut self.warnings) {
+            self.group = None;
+        }
+        let textures = &self.textures;
+        let slot = |texture: Option<lightbench_assets::TextureId>| {
+            texture.map_or(NO_TEXTURE, |id| textures.slot(id))
+        };
+        self.materials
+            .replace(assets.materials().iter().map(|entry| {
+                let material = &entry.value;
+                MaterialData {
+                    base_color: material.base_color,
+                    specular: material.specular,
+                    emissive: material.emissive,
+                    power: material.power,
+                    base_color_texture: slot(material.base_color_texture),
+                    normal_texture: slot(material.normal_texture),
+                    alpha_cutoff: material.alpha_cutoff.unwrap_or(0.0),
+                    reserved: 0,
+                }
+            }));
+        self.assets_revision = Some(assets.revision());
+        Ok(())
+    }
+
+    /// Forgets what was uploaded, for a scene that takes another's place.
+    pub fn reset(&mut self) {
+        self.assets_revision = None;
+        self.meshes.forget();
+        self.textures.forget();
+        self.rows = SceneRows::default();
+    }
+
+    /// Copies the rows of instances and lights that changed since the last call.
+    pub fn sync_world(&mut self, world: &World) {
+        self.rows.sync(world, &mut self.instances, &mut self.lights);
+    }
+
+    /// The lights, in the order of their rows.
+    pub fn lights(&self) -> &[LightData] {
+        self.lights.rows()
+    }
+
+    /// The instances, in the order of their rows.
+    pub fn instances(&self) -> &[InstanceData] {
+        self.instances.rows()
+    }
+
+    /// Uploads a frame and returns group 0.
+    pub fn upload(&mut self, frame: &Frame) -> &wgpu::BindGroup {
+        self.gpu
+            .queue
+            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame.data));
+        self.drawn.replace_if_changed(&frame.drawn);
+        self.object_lights.replace_if_changed(&frame.object_lights);
+        self.volumes.replace_if_changed(&frame.volumes);
+        let mut grown = false;
+        for flush in [
+            self.materials.flush(&self.gpu),
+            self.instances.flush(&self.gpu),
+            self.lights.flush(&self.gpu),
+            self.drawn.flush(&self.gpu),
+            self.object_lights.flush(&self.gpu),
+            self.volumes.flush(&self.gpu),
+        ] {
+            grown |= flush;
+        }
+        if grown {
+            self.group = None;
+        }
+        let group = match self.group.take() {
+            Some(group) => group,
+            None => Self::bind(
+                &self.gpu,
+                &self.layout,
+                self.buffers(),
+                &self.textures,
+                &self.sampler,
+            ),
+        };
+        self.group.insert(group)
+    }
+
+    fn buffers(&self) -> [&wgpu::Buffer; 7] {
+        [
+            &self.frame,
+            self.instances.buffer(),
+            self.materials.buffer(),
+            self.lights.buffer(),
+            self.drawn.buffer(),
+            self.object_lights.buffer(),
+            self.volumes.buffer(),
+        ]
+    }
+
+    fn bind(
+        gpu: &Gpu,
+        layout: &SceneLayout,
+        buffers: [&wgpu::Buffer; 7],
+        textures: &TexturePool,
+        sampler: &wgpu::Sampler,
+    ) -> wgpu::BindGroup {
+        let mut entries: Vec<_> = buffers
+            .iter()
+            .enumerate()
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding: binding as u32,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        entries.push(wgpu::BindGroupEntry {
+            binding: SAMPLER_BINDING,
+            resource: wgpu::BindingResource::Sampler(sampler),
+        });
+        entries.extend(textures.views().iter().enumerate().map(|(bucket, view)| {
+            wgpu::BindGroupEntry {
+                binding: FIRST_TEXTURE_BINDING + bucket as u32,
+                resource: wgpu::BindingResource::TextureView(view),
+            }
+        }));
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("scene"),
+            layout: &layout.group,
+            entries: &entries,
+        })
+    }
+
+    /// Bytes of rows uploaded since the last call.
+    pub fn take_uploaded_bytes(&mut self) -> u64 {
+        self.materials.take_uploaded()
+            + self.instances.take_uploaded()
+            + self.lights.take_uploaded()
+            + self.drawn.take_uploaded()
+            + self.object_lights.take_uploaded()
+            + self.volumes.take_uploaded()
+    }
+
+    /// What had to be changed to fit the device, once.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.warnings)
+    }
+
+    /// Bytes of textures and meshes on the device.
+    pub fn asset_bytes(&self) -> u64 {
+        self.meshes.bytes() + self.textures.bytes()
+    }
+}

@@ -1,0 +1,265 @@
+//! From shader files to checked modules: imports, defines, validation, reflection.
+
+use std::collections::HashMap;
+
+use lightbench_assets::files::Files;
+use naga::valid::Capabilities;
+use naga_oil::compose::{
+    ComposableModuleDescriptor, Composer, ComposerError, ComposerErrorInner, NagaModuleDescriptor,
+    ShaderDefValue,
+};
+
+use crate::problem::{Place, Problem, suggestion};
+
+/// A shader that parsed and validated, before any pipeline is built from it.
+#[derive(Clone, Debug)]
+pub struct Shader {
+    /// Path of the file.
+    pub path: String,
+    /// The file's text, for error messages.
+    pub text: String,
+    /// The composed module.
+    pub module: naga::Module,
+}
+
+/// The folder of modules that shaders import.
+const MODULES: &str = "shaders/lib";
+
+/// Composes shaders from files and remembers the modules that they import.
+pub struct ShaderComposer {
+    composer: Composer,
+    /// Import path (`lightbench::scene`) to file path.
+    module_files: HashMap<String, String>,
+}
+
+impl ShaderComposer {
+    /// Reads every module in `shaders/lib`. `capabilities` are the device's.
+    ///
+    /// # Errors
+    /// The first mistake in a module, with its place.
+    pub fn new(files: &Files, capabilities: Capabilities) -> Result<Self, Problem> {
+        let mut composer = Composer::default().with_capabilities(capabilities);
+        composer.validate = true;
+        let mut this = Self {
+            composer,
+            module_files: HashMap::new(),
+        };
+        this.add_modules(files)?;
+        Ok(this)
+    }
+
+    /// Adds the modules in an order in which each finds what it imports.
+    fn add_modules(&mut self, files: &Files) -> Result<(), Problem> {
+        let mut waiting = Vec::new();
+        let listed = files
+            .list(MODULES, "wgsl")
+            .map_err(|error| Problem::new(Place::file(MODULES), error.to_string()))?;
+        for entry in listed {
+            let text = read(files, &entry.path)?;
+            let Some(name) = import_path(&text) else {
+                return Err(Problem::new(
+                    Place::new(entry.path.as_str(), 1, 0),
+                    "the module has no name",
+                )
+                .with_hint("add a line such as `#define_import_path lightbench::name`"));
+            };
+            self.module_files.insert(name.clone(), entry.path.clone());
+            waiting.push((name, entry.path, text));
+        }
+        while !waiting.is_empty() {
+            let names: Vec<String> = waiting.iter().map(|(name, ..)| name.clone()).collect();
+            let ready = waiting
+                .iter()
+                .position(|(_, _, text)| !names.iter().any(|name| imports(text, name)));
+            let Some(ready) = ready else {
+                let (name, path, _) = &waiting[0];
+                return Err(Problem::new(
+                    Place::file(path.as_str()),
+                    format!(
+                        "the modules {} import each other in a circle",
+                        names.join(", ")
+                    ),
+                )
+                .with_hint(format!("let `{name}` import nothing that imports it")));
+            };
+            let (_, path, text) = waiting.swap_remove(ready);
+            let descriptor = ComposableModuleDescriptor {
+                source: &text,
+                file_path: &path,
+                ..Default::default()
+            };
+            if let Err(error) = self.composer.add_composable_module(descriptor) {
+                return Err(self.explain(&error, &path, &text));
+            }
+        }
+        Ok(())
+    }
+
+    /// Composes and validates the shader in `path` with `defines` set.
+    ///
+    /// # Errors
+    /// The first mistake in the shader or a module that it imports, with its place.
+    pub fn compose(
+        &mut self,
+        files: &Files,
+        path: &str,
+        defines: &[&str],
+    ) -> Result<Shader, Problem> {
+        let text = read(files, path)?;
+        if text.trim().is_empty() {
+            return Err(Problem::new(Place::file(path), "the shader is empty")
+                .with_hint("an editor may be half-way through saving it; save it again"));
+        }
+        let shader_defs = defines
+            .iter()
+            .map(|define| ((*define).to_owned(), ShaderDefValue::Bool(true)))
+            .collect();
+        let descriptor = NagaModuleDescriptor {
+            source: &text,
+            file_path: path,
+            shader_defs,
+            ..Default::default()
+        };
+        match self.composer.make_naga_module(descriptor) {
+            Ok(module) => Ok(Shader {
+                path: path.to_owned(),
+                text,
+                module,
+            }),
+            Err(error) => Err(self.explain(&error, path, &text)),
+        }
+    }
+
+    /// Says where and what a composer's error is.
+    fn explain(&self, error: &ComposerError, path: &str, text: &str) -> Problem {
+        // naga_oil numbers bytes in the composed text: the top bits name the module.
+        const POSITION_BITS: u32 = 21;
+        let source = error.source.source(&self.composer);
+        let file = error.source.path(&self.composer);
+        let source: &str = if source.is_empty() { text } else { &source };
+        let file = if file.is_empty() { path } else { file };
+        let offset = error.source.offset();
+        let local = |byte: usize| (byte & ((1 << POSITION_BITS) - 1)).saturating_sub(offset);
+        let place = |byte: usize| place_of(file, source, byte);
+        let start =
+            |span: Option<std::ops::Range<usize>>| span.map_or(0, |range| local(range.start));
+
+        match &error.inner {
+            ComposerErrorInner::WgslParseError(parse) => {
+                let label = parse.labels().next();
+                let at = start(label.as_ref().and_then(|(span, _)| span.to_range()));
+                let detail = label
+                    .map(|(_, text)| text.to_owned())
+                    .filter(|text| !text.is_empty());
+                let message = self.composer_text(parse.message());
+                let mut problem = Problem::new(place(at), message.clone()).with_source(source);
+                problem.hint = detail
+                    .map(|d| self.composer_text(&d))
+                    .filter(|d| !message.contains(d.as_str()));
+                problem
+            }
+            ComposerErrorInner::ShaderValidationError(invalid)
+            | ComposerErrorInner::HeaderValidationError(invalid) => {
+                // The causes go from "entry point is invalid" to the reason: the last is the point.
+                let mut message = invalid.as_inner().to_string();
+                let mut cause = std::error::Error::source(invalid.as_inner());
+                while let Some(next) = cause {
+                    message = format!("{message}: {next}");
+                    cause = next.source();
+                }
+                let (span, note) = invalid
+                    .spans()
+                    .max_by_key(|(span, _)| span.to_range().map_or(0, |range| range.start))
+                    .map_or((None, String::new()), |(span, note)| {
+                        (span.to_range(), note.clone())
+                    });
+                let mut problem = Problem::new(place(start(span)), self.composer_text(&message))
+                    .with_source(source);
+                problem.hint = Some(self.composer_text(&note)).filter(|note| !note.is_empty());
+                problem
+            }
+            ComposerErrorInner::ImportNotFound(name, at) => {
+                let mut problem = Problem::new(place(*at), format!("there is no module `{name}`"))
+                    .with_source(source);
+                problem.hint = suggestion(name, self.module_files.keys().map(String::as_str))
+                    .or_else(|| {
+                        let mut names: Vec<&str> =
+                            self.module_files.keys().map(String::as_str).collect();
+                        names.sort_unstable();
+                        Some(format!("the modules are: {}", names.join(", ")))
+                    });
+                problem
+            }
+            ComposerErrorInner::ImportParseError(message, at) => {
+                Problem::new(place(*at), format!("this import can't be read: {message}"))
+                    .with_source(source)
+            }
+            ComposerErrorInner::NotEnoughEndIfs(at)
+            | ComposerErrorInner::TooManyEndIfs(at)
+            | ComposerErrorInner::ElseWithoutCondition(at)
+            | ComposerErrorInner::UnknownShaderDef { pos: at, .. }
+            | ComposerErrorInner::UnknownShaderDefOperator { pos: at, .. }
+            | ComposerErrorInner::InvalidShaderDefComparisonValue { pos: at, .. }
+            | ComposerErrorInner::DefineInModule(at) => {
+                Problem::new(place(*at), error.inner.to_string()).with_source(source)
+            }
+            other => Problem::new(Place::file(file), self.composer_text(&other.to_string())),
+        }
+    }
+
+    /// A message without the composer's decorated names.
+    fn composer_text(&self, message: &str) -> String {
+        undecorate(message)
+    }
+}
+
+/// Turns naga_oil's decorated names (`positionX_naga_oil_mod_XNRUWO…X`) into plain ones.
+fn undecorate(message: &str) -> String {
+    const MARK: &str = "X_naga_oil_mod_X";
+    let mut plain = String::with_capacity(message.len());
+    let mut rest = message;
+    while let Some(at) = rest.find(MARK) {
+        plain.push_str(&rest[..at]);
+        let after = &rest[at + MARK.len()..];
+        let end = after.find('X').map_or(after.len(), |end| end + 1);
+        rest = &after[end..];
+    }
+    plain.push_str(rest);
+    plain
+}
+
+/// Line and column of a byte.
+pub(crate) fn place_of(file: &str, text: &str, byte: usize) -> Place {
+    let byte = (0..=byte.min(text.len()))
+        .rev()
+        .find(|&b| text.is_char_boundary(b))
+        .unwrap_or(0);
+    let before = &text[..byte];
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+    Place::new(file, line as u32, column as u32)
+}
+
+fn read(files: &Files, path: &str) -> Result<String, Problem> {
+    files
+        .read_text(path)
+        .map_err(|error| Problem::new(Place::file(path), error.to_string()))
+}
+
+/// The module name that a file gives itself.
+fn import_path(text: &str) -> Option<String> {
+    text.lines()
+        .find_map(|line| line.trim().strip_prefix("#define_import_path"))
+        .map(|name| name.trim().to_owned())
+}
+
+/// Whether a file imports the module.
+fn imports(text: &str, module: &str) -> bool {
+    text.lines()
+        .filter_map(|line| line.trim().strip_prefix("#import"))
+        .any(|rest| {
+            let name = rest.trim();
+            name.strip_prefix(module)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', ':', '{', ';']))
+        })
+}

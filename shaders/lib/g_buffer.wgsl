@@ -1,0 +1,37 @@
+// How deferred pipelines keep a surface in textures.
+//
+// In:  a surface, or the texels of the G-buffer.
+// Out: the other. Quantisation: base colour 8 bits sRGB, specular 8 bits linear, normal 2 × 16
+//      bits octahedral, power 8 bits as log2(p) / 10.5, whose step is 2.9 %.
+#define_import_path lightbench::g_buffer
+
+#import lightbench::surface
+#import lightbench::normals
+
+struct GBuffer {
+    @location(0) hdr: vec4f,            // emitted radiance; lights add to it
+    @location(1) albedo: vec4f,         // base colour, specular
+    @location(2) normal: vec2u,         // octahedral
+    @location(3) power: f32,            // log2(p) / 10.5
+}
+
+fn pack(s: surface::Surface) -> GBuffer {
+    return GBuffer(
+        vec4f(s.emissive, 1.0),
+        vec4f(s.base_color, s.specular),
+        normals::encode_octahedral(s.normal),
+        log2(clamp(s.power, 1.0, 1448.0)) / 10.5,
+    );
+}
+
+// The surface again, from texels; emission is in the light buffer already.
+fn unpack(position: vec3f, albedo: vec4f, normal: vec2u, power: f32) -> surface::Surface {
+    return surface::Surface(
+        position,
+        normals::decode_octahedral(normal),
+        albedo.rgb,
+        albedo.a,
+        exp2(10.5 * power),
+        vec3f(0.0),
+    );
+}
