@@ -43,33 +43,44 @@ make_archive() {
 
 # Prints the crates inside the program with their licences, and each licence text once.
 list_licences() {
-    local cargo_home=${CARGO_HOME:-$home/.cargo} work crate licence name version directory file sum
+    local cargo_home=${CARGO_HOME:-$home/.cargo} crates
     cargo_home=${cargo_home//\\//} # as bash on Windows wants it
-    work=$(mktemp -d)
+    crates=$(
+        cd "$root" && cargo tree --locked --package lightbench-editor --edges normal --prefix none \
+            --format '{p}|{l}' | grep -v '^lightbench' | sed 's/ (\*)$//; s/ (proc-macro)//' | LC_ALL=C sort -u
+    )
     printf 'Lightbench is built from these crates, each under its own licence.\n\n'
-    (cd "$root" && cargo tree --locked --package lightbench-editor --edges normal --prefix none \
-        --format '{p}|{l}') | grep -v '^lightbench' | sed 's/ (\*)$//; s/ (proc-macro)//' | LC_ALL=C sort -u |
-        while IFS='|' read -r crate licence; do
-            printf '%s: %s\n' "$crate" "${licence:-see its text below}"
-            name=${crate%% v*} version=${crate##* v}
-            for directory in "$cargo_home"/registry/src/*/"$name-$version"; do
-                find "$directory" -maxdepth 2 -type f \( -iname 'licen[cs]e*' -o -iname 'copying*' \
-                    -o -iname 'notice*' -o -iname 'unlicense*' -o -iname '*OFL*.txt' -o -iname '*UFL*.txt' \) |
-                    LC_ALL=C sort | while read -r file; do
-                    sum=$(cksum <"$file")
-                    sum=${sum// /-}
-                    cp "$file" "$work/$sum.text"
-                    printf '%s ' "$name" >>"$work/$sum.users"
-                done
-            done
-        done
-    for file in "$work"/*.text; do
-        printf '\n%s\n' '--------------------------------------------------------------------------------'
-        printf 'Used by: %s\n\n' "$(tr ' ' '\n' <"${file%.text}.users" | LC_ALL=C sort -u | xargs)"
-        cat "$file"
-    done
-    rm -rf "$work"
+    printf '%s\n' "$crates" | sed 's/|/: /'
+    printf '%s\n' "$crates" | sed 's/|.*//; s/ v/-/' | licence_files "$cargo_home" | tr '\n' '\0' |
+        xargs -0 cksum | LC_ALL=C sort -k 3 | awk '
+        {
+            path = $0
+            sub(/^[0-9]+ [0-9]+ /, "", path)
+            user = path
+            sub(/.*\/registry\/src\/[^\/]*\//, "", user)
+            sub(/\/.*/, "", user)
+            text = $1 " " $2
+            if (!(text in first)) { first[text] = path; order[++count] = text }
+            if (last[text] != user) users[text] = users[text] " " user
+            last[text] = user
+        }
+        END {
+            for (i = 1; i <= count; i++) {
+                printf "\n%s\nUsed by:%s\n\n", "----------------------------------------", users[order[i]]
+                while ((getline line < first[order[i]]) > 0) print line
+            }
+        }'
 }
+
+# Reads NAME-VERSION lines, and prints the files in those crates that hold a licence, fonts included.
+licence_files() (
+    shopt -s nullglob nocaseglob
+    while read -r crate; do
+        for file in "$1"/registry/src/*/"$crate"/{,*/}{licen[cs]e*,copying*,notice*,unlicense*,*ofl*.txt,*ufl*.txt}; do
+            if [ -f "$file" ]; then printf '%s\n' "$file"; fi
+        done
+    done
+)
 
 # Unpacks the archive in an empty folder and renders there with a bare environment: no Rust, no
 # source tree, and no network where the kernel lets an ordinary user take it away.
