@@ -1,8 +1,12 @@
 //! The columns of one component type: one array a field, in the same order.
 
+use std::ops::Range;
+
+use crate::batches::{Batch, BatchMarker, SliceSet, run_batches};
 use crate::entity::Entity;
+use crate::merge::EntityMap;
 use crate::reflect::{ComponentInfo, FieldInfo};
-use crate::row_map::RowMap;
+use crate::row_map::{Layout, RowMap};
 use crate::ticks::{ChangeTicks, Tick};
 use crate::value::Value;
 
@@ -26,7 +30,7 @@ pub trait Arrays: Clone + Default + std::fmt::Debug + Send + Sync {
     where
         Self: 'a;
     /// A mutable slice for every field.
-    type SlicesMut<'a>
+    type SlicesMut<'a>: SliceSet
     where
         Self: 'a;
 
@@ -36,6 +40,8 @@ pub trait Arrays: Clone + Default + std::fmt::Debug + Send + Sync {
     fn shrink_to_fit(&mut self);
     /// Adds a row at the end.
     fn push(&mut self, row: Self::Row);
+    /// Adds a row at the end whose handles come from another world.
+    fn push_mapped(&mut self, row: Self::Row, map: &EntityMap);
     /// Takes a row out and moves the last one into its place.
     fn swap_remove(&mut self, row: usize) -> Self::Row;
     /// A copy of a row.
@@ -152,10 +158,34 @@ impl<C: Component> Columns<C> {
         (self.arrays.slices_mut(), marker)
     }
 
+    /// Runs a function over all rows in batches, in parallel where there are
+    /// several. Each batch gets its first row, its slices and a marker with which
+    /// it reports the rows that it changed, counted from the batch's first.
+    ///
+    /// What a row becomes must depend on nothing that another batch writes; the
+    /// borrow checker sees to that.
+    pub fn par_batches<'a>(
+        &'a mut self,
+        work: impl Fn(usize, <C::Arrays as Arrays>::SlicesMut<'a>, &mut BatchMarker<'_>) + Sync,
+    ) {
+        let batch = Batch::new(self.map.entities().len(), self.ticks.marks(), self.now);
+        if run_batches(batch, self.arrays.slices_mut(), &work) {
+            self.ticks.set_last(self.now);
+        }
+    }
+
     /// Rows written after a tick, in ascending order. A row that a removal moved
     /// to another position counts as written there.
     pub fn changed_since(&self, since: Tick) -> impl Iterator<Item = usize> + '_ {
-        self.ticks.changed_since(since)
+        self.ticks.changed_in(0..self.len(), since)
+    }
+
+    /// Like [`Columns::changed_since`], for the rows of a range.
+    ///
+    /// # Panics
+    /// If the range reaches beyond [`Columns::len`].
+    pub fn changed_in(&self, rows: Range<usize>, since: Tick) -> impl Iterator<Item = usize> + '_ {
+        self.ticks.changed_in(rows, since)
     }
 
     /// Whether the row at a position was written after a tick.
@@ -169,9 +199,9 @@ impl<C: Component> Columns<C> {
         self.ticks.last().is_after(since)
     }
 
-    /// Counts the changes of the order of rows. While it stays the same, so does
-    /// the entity of every row.
-    pub fn layout_version(&self) -> u64 {
+    /// Names the present order of rows. While it stays the same, so does the
+    /// entity of every row.
+    pub fn layout(&self) -> Layout {
         self.map.layout()
     }
 
@@ -227,6 +257,29 @@ impl<C: Component> Columns<C> {
         Some(self.arrays.swap_remove(row))
     }
 
+    /// Adds copies of all rows of another world's columns.
+    pub(crate) fn append(&mut self, other: &Self, map: &EntityMap) {
+        self.reserve(other.len());
+        for (row, &entity) in other.entities().iter().enumerate() {
+            if let Some(entity) = map.get(entity) {
+                self.map.push(entity);
+                self.ticks.push(self.now);
+                self.arrays.push_mapped(other.row(row), map);
+            }
+        }
+    }
+
+    pub(crate) fn mark_all(&mut self) {
+        self.ticks.mark_all(self.now);
+    }
+
+    /// Puts the rows into a new order: row `i` becomes what row `order[i]` was.
+    pub(crate) fn reorder(&mut self, order: &[u32]) {
+        self.map.reorder(order);
+        self.arrays.reorder(order);
+        self.ticks.mark_all(self.now);
+    }
+
     pub(crate) fn mark(&mut self, entity: Entity) {
         if let Some(row) = self.row_of(entity) {
             self.ticks.mark(row, self.now);
@@ -256,6 +309,12 @@ impl Marker<'_> {
     #[inline]
     pub fn mark(&mut self, row: usize) {
         self.ticks.mark(row, self.now);
+    }
+
+    /// Whether the row at a position was written after a tick.
+    #[inline]
+    pub fn row_changed_since(&self, row: usize, since: Tick) -> bool {
+        self.ticks.is_after(row, since)
     }
 
     /// Marks every row as changed.

@@ -84,6 +84,13 @@ macro_rules! component {
                 $($(#[doc = $field_doc])* pub $field: &'a mut [$type],)*
             }
 
+            impl $crate::batches::SliceSet for SlicesMut<'_> {
+                fn split(self, row: usize) -> (Self, Self) {
+                    $(let $field = self.$field.split_at_mut(row);)*
+                    (Self { $($field: $field.0,)* }, Self { $($field: $field.1,)* })
+                }
+            }
+
             impl $crate::columns::Arrays for Arrays {
                 type Row = $name;
                 type Slices<'a> = Slices<'a>;
@@ -98,6 +105,10 @@ macro_rules! component {
                 #[inline]
                 fn push(&mut self, row: $name) {
                     $(self.$field.push(row.$field);)*
+                }
+                fn push_mapped(&mut self, mut row: $name, map: &$crate::merge::EntityMap) {
+                    $($crate::value::FieldType::map_entities(&mut row.$field, map);)*
+                    self.push(row);
                 }
                 #[inline]
                 fn swap_remove(&mut self, row: usize) -> $name {
@@ -202,6 +213,32 @@ macro_rules! components {
             }
         }
 
+        /// The row of any component.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Row {
+            $(#[doc = concat!("A [`", stringify!($name), "`]")] $name($name),)*
+        }
+
+        impl Row {
+            /// Gives an entity the component.
+            ///
+            /// # Errors
+            /// As [`World::insert`](crate::World::insert).
+            pub fn insert_into(
+                self,
+                world: &mut $crate::World,
+                entity: $crate::Entity,
+            ) -> Result<(), $crate::WorldError> {
+                match self { $(Self::$name(row) => world.insert(entity, row),)* }
+            }
+        }
+
+        $(impl From<$name> for Row {
+            fn from(row: $name) -> Self {
+                Self::$name(row)
+            }
+        })*
+
         /// One set of columns for each component type.
         #[derive(Clone, Debug, Default)]
         pub struct Stores {
@@ -209,6 +246,19 @@ macro_rules! components {
         }
 
         impl Stores {
+            /// Adds copies of all rows of another world.
+            pub(crate) fn append(
+                &mut self,
+                other: &Self,
+                map: &$crate::merge::EntityMap,
+                now: $crate::ticks::Tick,
+            ) {
+                $(
+                    self.$module.set_now(now);
+                    self.$module.append(&other.$module, map);
+                )*
+            }
+
             /// Calls the visitor with every set of columns, in a fixed order.
             pub(crate) fn visit<V: $crate::stores::Visitor>(&self, visitor: &mut V) {
                 $(visitor.visit(&self.$module);)*
@@ -244,6 +294,14 @@ macro_rules! components {
                     let columns = <$follower as $crate::stores::Stored>::columns_mut(stores);
                     columns.set_now(now);
                     columns.push(entity, Default::default());
+                }
+                fn reserve_follower(stores: &mut Stores, additional: usize) {
+                    <$follower as $crate::stores::Stored>::columns_mut(stores).reserve(additional);
+                }
+                fn reorder_follower(stores: &mut Stores, order: &[u32], now: $crate::ticks::Tick) {
+                    let columns = <$follower as $crate::stores::Stored>::columns_mut(stores);
+                    columns.set_now(now);
+                    columns.reorder(order);
                 }
                 fn remove_follower(stores: &mut Stores, entity: $crate::entity::Entity, now: $crate::ticks::Tick) {
                     let columns = <$follower as $crate::stores::Stored>::columns_mut(stores);

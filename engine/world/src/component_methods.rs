@@ -1,9 +1,9 @@
 //! Small conveniences on component rows.
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{Affine2, Affine3A, Quat, Vec3};
 
 use crate::columns::Columns;
-use crate::components::{Name, Transform, WorldBounds};
+use crate::components::{Name, Transform, Transform2d, WorldBounds};
 use crate::culling::Spheres;
 
 impl Transform {
@@ -35,6 +35,13 @@ impl Transform {
     /// The map from the entity's own space to its parent's.
     pub fn matrix(&self) -> Affine3A {
         Affine3A::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
+    }
+}
+
+impl Transform2d {
+    /// The map from the entity's own plane to its parent's.
+    pub fn matrix(&self) -> Affine2 {
+        Affine2::from_scale_angle_translation(self.scale, self.rotation, self.translation)
     }
 }
 

@@ -6,7 +6,7 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{Affine2, Affine3A, Quat, Vec2, Vec3};
 
 use crate::component_macro::components;
 use crate::entity::Entity;
@@ -47,6 +47,27 @@ components! {
     world_matrix: WorldMatrix, Computed {
         /// The product of the transforms of all ancestors, outermost first.
         matrix: Affine3A = Affine3A::IDENTITY, "m", ANY;
+    }
+
+    /// Where an entity stands on the screen, in its parent's plane: pixels from
+    /// the top left corner, x to the right and y down.
+    #[derive(Copy)]
+    transform_2d: Transform2d, Hidden followed by WorldMatrix2d {
+        /// Position of the entity's origin in its parent's plane.
+        translation: Vec2 = Vec2::ZERO, "px", ANY;
+        /// Clockwise turn.
+        rotation: f32 = 0.0, "rad", ANY;
+        /// Scale along the entity's own axes.
+        scale: Vec2 = Vec2::ONE, "", ANY;
+    }
+
+    /// From the entity's own plane to the screen. Written by
+    /// [`update_world_matrices`](crate::systems::update_world_matrices) for
+    /// every entity with a Transform2d, in the same rows.
+    #[derive(Copy)]
+    world_matrix_2d: WorldMatrix2d, Computed {
+        /// The product of the transforms of all ancestors, outermost first.
+        matrix: Affine2 = Affine2::IDENTITY, "px", ANY;
     }
 
     /// Draws a mesh with a material.

@@ -108,6 +108,12 @@ impl Entities {
     }
 
     pub fn spawn(&mut self) -> Entity {
+        self.spawn_with(0)
+    }
+
+    /// Takes a slot for an entity with these components.
+    #[inline]
+    pub fn spawn_with(&mut self, components: u32) -> Entity {
         let index = match self.free.pop() {
             Some(index) => index,
             None => {
@@ -117,6 +123,7 @@ impl Entities {
         };
         let slot = &mut self.slots[index as usize];
         slot.generation += 1;
+        slot.components = components;
         Entity {
             index,
             generation: slot.generation,

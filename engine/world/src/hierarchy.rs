@@ -4,7 +4,7 @@
 //! its neighbours among the siblings, so that linking and unlinking cost the
 //! same however many children there are.
 
-use crate::components::{Family, Transform};
+use crate::components::{Family, Transform, Transform2d};
 use crate::entity::Entity;
 use crate::error::WorldError;
 use crate::world::World;
@@ -64,6 +64,7 @@ impl World {
             self.link(child, parent);
         }
         self.columns_mut::<Transform>().mark(child);
+        self.columns_mut::<Transform2d>().mark(child);
         Ok(())
     }
 

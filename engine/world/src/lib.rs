@@ -11,8 +11,11 @@
 //! - [`culling`]: which bounds a view shows.
 //! - [`fields`] and [`reflect`]: components by name.
 
+mod batches;
+mod bundle;
 mod clock;
 mod columns;
+mod commands;
 mod component_macro;
 mod component_methods;
 pub mod components;
@@ -21,23 +24,35 @@ mod entity;
 mod error;
 pub mod fields;
 mod hierarchy;
+mod merge;
+mod messages;
+pub mod query;
 pub mod reflect;
 mod row_map;
+mod sets;
 mod stores;
 pub mod systems;
 mod ticks;
 mod value;
 mod world;
 
+pub use batches::{BatchMarker, SliceSet};
+pub use bundle::Bundle;
 pub use columns::{Arrays, Columns, Component, Marker};
+pub use commands::{Commands, Target};
 pub use components::{
-    Camera, ComponentKind, Light, LightKind, MeshRenderer, Name, Transform, WorldBounds,
-    WorldMatrix,
+    Camera, ComponentKind, Light, LightKind, MeshRenderer, Name, Row, Transform, Transform2d,
+    WorldBounds, WorldMatrix, WorldMatrix2d,
 };
 pub use entity::Entity;
 pub use error::WorldError;
 pub use glam;
 pub use hierarchy::Children;
+pub use merge::{EntityMap, Snapshot};
+pub use messages::{Mailbox, Outbox};
+pub use query::Join;
+pub use row_map::Layout;
+pub use sets::EntitySets;
 pub use stores::Stored;
 pub use systems::MeshBounds;
 pub use ticks::Tick;

@@ -1,20 +1,61 @@
 //! The two-way map between entities and the rows of one set of columns.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use crate::entity::Entity;
+
+/// Names one order of rows. While a set of columns reports the same layout, the
+/// entity of every row stays the same. No two sets of columns ever share one,
+/// copies of a world included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    columns: u64,
+    version: u64,
+}
+
+impl Layout {
+    fn fresh() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self {
+            columns: NEXT.fetch_add(1, Ordering::Relaxed),
+            version: 0,
+        }
+    }
+}
 
 /// No row: the entity has no such component.
 const NO_ROW: u32 = u32::MAX;
 
 /// `dense → entity` and `entity → dense` (Briggs and Torczon 1993, "An efficient
 /// representation for sparse sets").
-#[derive(Clone, Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct RowMap {
     /// The entity of each row.
     entities: Vec<Entity>,
     /// The row of each entity, by slot index.
     rows: Vec<u32>,
-    /// Counts the changes of order, so that a cached join knows when it is old.
-    layout: u64,
+    /// Changes with the order, so that a cached join knows when it is old.
+    layout: Layout,
+}
+
+impl Default for RowMap {
+    fn default() -> Self {
+        Self {
+            entities: Vec::new(),
+            rows: Vec::new(),
+            layout: Layout::fresh(),
+        }
+    }
+}
+
+impl Clone for RowMap {
+    fn clone(&self) -> Self {
+        Self {
+            entities: self.entities.clone(),
+            rows: self.rows.clone(),
+            layout: Layout::fresh(),
+        }
+    }
 }
 
 impl RowMap {
@@ -22,7 +63,7 @@ impl RowMap {
         &self.entities
     }
 
-    pub fn layout(&self) -> u64 {
+    pub fn layout(&self) -> Layout {
         self.layout
     }
 
@@ -48,7 +89,7 @@ impl RowMap {
         }
         self.rows[slot] = self.entities.len() as u32;
         self.entities.push(entity);
-        self.layout += 1;
+        self.layout.version += 1;
     }
 
     /// Removes an entity's row by moving the last one into its place, and
@@ -61,8 +102,20 @@ impl RowMap {
         if let Some(moved) = self.entities.get(row) {
             self.rows[moved.index() as usize] = row as u32;
         }
-        self.layout += 1;
+        self.layout.version += 1;
         Some(row)
+    }
+
+    /// Row `i` becomes what row `order[i]` was.
+    pub fn reorder(&mut self, order: &[u32]) {
+        self.entities = order
+            .iter()
+            .map(|&row| self.entities[row as usize])
+            .collect();
+        for (row, entity) in self.entities.iter().enumerate() {
+            self.rows[entity.index() as usize] = row as u32;
+        }
+        self.layout.version += 1;
     }
 
     pub fn shrink_to_fit(&mut self) {

@@ -21,6 +21,11 @@ pub trait Stored: Component {
     fn columns_mut(stores: &mut Stores) -> &mut Columns<Self>;
     /// Adds the row of the computed component that follows this one.
     fn push_follower(_stores: &mut Stores, _entity: Entity, _now: Tick) {}
+    /// Makes room in the columns of the computed component that follows this one.
+    fn reserve_follower(_stores: &mut Stores, _additional: usize) {}
+    /// Puts the rows of the computed component that follows this one into a new
+    /// order.
+    fn reorder_follower(_stores: &mut Stores, _order: &[u32], _now: Tick) {}
     /// Removes the row of the computed component that follows this one.
     fn remove_follower(_stores: &mut Stores, _entity: Entity, _now: Tick) {}
 }

@@ -4,6 +4,8 @@
 //! and later asks which rows were written after that tick. Asking for a tick
 //! closes it: whatever is written afterwards carries a later one.
 
+use std::ops::Range;
+
 /// A moment in the history of a world.
 ///
 /// Ticks are compared by their distance, so that the counter may wrap. A row
@@ -27,7 +29,7 @@ impl Tick {
 }
 
 /// Rows that share one summary tick, so that a search skips what did not change.
-const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 256;
 
 /// The ticks of one set of columns.
 #[derive(Clone, Debug)]
@@ -97,21 +99,33 @@ impl ChangeTicks {
         self.rows[row].is_after(since) || self.all.is_after(since)
     }
 
-    /// Rows written after `since`, in ascending order.
-    pub fn changed_since(&self, since: Tick) -> impl Iterator<Item = usize> + '_ {
+    /// Rows of a range that were written after `since`, in ascending order.
+    pub fn changed_in(&self, range: Range<usize>, since: Tick) -> impl Iterator<Item = usize> + '_ {
         let everything = self.all.is_after(since);
         let blocks = if self.last.is_after(since) {
-            self.blocks.len()
+            range.start / BLOCK..range.end.div_ceil(BLOCK)
         } else {
-            0
+            0..0
         };
-        (0..blocks)
+        blocks
             .filter(move |&block| everything || self.blocks[block].is_after(since))
             .flat_map(move |block| {
-                let first = block * BLOCK;
-                let end = self.rows.len().min(first + BLOCK);
+                let first = range.start.max(block * BLOCK);
+                let end = range.end.min((block + 1) * BLOCK);
                 (first..end).filter(move |&row| everything || self.rows[row].is_after(since))
             })
+    }
+
+    /// The ticks of all rows, to be split among threads at whole blocks.
+    pub fn marks(&mut self) -> Marks<'_> {
+        Marks {
+            rows: &mut self.rows,
+            blocks: &mut self.blocks,
+        }
+    }
+
+    pub fn set_last(&mut self, now: Tick) {
+        self.last = now;
     }
 
     pub fn shrink_to_fit(&mut self) {
@@ -121,6 +135,31 @@ impl ChangeTicks {
 
     pub fn capacity_bytes(&self) -> usize {
         (self.rows.capacity() + self.blocks.capacity()) * size_of::<Tick>()
+    }
+}
+
+/// The ticks of a run of rows that starts and ends with whole blocks.
+pub(crate) struct Marks<'a> {
+    rows: &'a mut [Tick],
+    blocks: &'a mut [Tick],
+}
+
+impl Marks<'_> {
+    #[inline]
+    pub fn mark(&mut self, row: usize, now: Tick) {
+        self.rows[row] = now;
+        self.blocks[row / BLOCK] = now;
+    }
+
+    /// Splits at a row that is a multiple of `BLOCK`.
+    pub fn split(self, row: usize) -> (Self, Self) {
+        let (rows, rows_after) = self.rows.split_at_mut(row);
+        let (blocks, blocks_after) = self.blocks.split_at_mut(row / BLOCK);
+        let after = Marks {
+            rows: rows_after,
+            blocks: blocks_after,
+        };
+        (Marks { rows, blocks }, after)
     }
 }
 
@@ -136,7 +175,11 @@ mod tests {
         }
         ticks.mark(3, Tick(2));
         ticks.mark(999, Tick(3));
-        let since = |tick| ticks.changed_since(Tick(tick)).collect::<Vec<_>>();
+        let since = |tick| {
+            ticks
+                .changed_in(0..ticks.rows.len(), Tick(tick))
+                .collect::<Vec<_>>()
+        };
         assert_eq!(since(0).len(), 1000);
         assert_eq!(since(1), [3, 999]);
         assert_eq!(since(2), [999]);
@@ -150,9 +193,9 @@ mod tests {
             ticks.push(Tick(1));
         }
         ticks.swap_remove(10, Tick(5));
-        assert_eq!(ticks.changed_since(Tick(4)).collect::<Vec<_>>(), [10]);
+        assert_eq!(ticks.changed_in(0..599, Tick(4)).collect::<Vec<_>>(), [10]);
         ticks.swap_remove(598, Tick(6));
-        assert_eq!(ticks.changed_since(Tick(5)).count(), 0);
+        assert_eq!(ticks.changed_in(0..598, Tick(5)).count(), 0);
         assert_eq!(ticks.last(), Tick(6));
     }
 

@@ -4,6 +4,7 @@
 use glam::{Affine2, Affine3A, Mat3, Mat4, Quat, Vec2, Vec3, Vec4};
 
 use crate::entity::Entity;
+use crate::merge::EntityMap;
 
 /// The value of any field of any component.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +94,8 @@ pub trait FieldType: Clone + Send + Sync + 'static {
     fn numbers(&self) -> ([f32; 4], usize) {
         ([0.0; 4], 0)
     }
+    /// Replaces handles to entities of one world by their copies in another.
+    fn map_entities(&mut self, _map: &EntityMap) {}
     /// Bytes that the field holds outside its column.
     fn heap_bytes(&self) -> usize {
         0
@@ -180,9 +183,24 @@ field_type!(
     "a rotation",
     numbers | q | ([q.x, q.y, q.z, q.w], 4)
 );
-field_type!(Entity, Entity, "an entity");
 field_type!(MeshId, Mesh, "a mesh");
 field_type!(MaterialId, Material, "a material");
+
+impl FieldType for Entity {
+    const TYPE: ValueType = ValueType::Entity;
+    fn to_value(&self) -> Value {
+        Value::Entity(*self)
+    }
+    fn from_value(value: &Value) -> Result<Self, String> {
+        match value {
+            Value::Entity(entity) => Ok(*entity),
+            other => Err(mismatch("an entity", other)),
+        }
+    }
+    fn map_entities(&mut self, map: &EntityMap) {
+        *self = map.get(*self).unwrap_or(Entity::NONE);
+    }
+}
 
 impl FieldType for String {
     const TYPE: ValueType = ValueType::Text;
@@ -274,6 +292,9 @@ impl<T: FieldType> FieldType for Vec<T> {
                 .collect(),
             other => Err(mismatch("a list", other)),
         }
+    }
+    fn map_entities(&mut self, map: &EntityMap) {
+        self.iter_mut().for_each(|item| item.map_entities(map));
     }
     fn heap_bytes(&self) -> usize {
         self.capacity() * size_of::<T>() + self.iter().map(FieldType::heap_bytes).sum::<usize>()

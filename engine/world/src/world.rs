@@ -6,6 +6,7 @@ use crate::components::{Family, Name, Stores};
 use crate::entity::{Entities, Entity};
 use crate::error::WorldError;
 use crate::reflect::Role;
+use crate::sets::EntitySets;
 use crate::stores::{Stored, Visitor, VisitorMut};
 use crate::systems::SystemState;
 use crate::ticks::Tick;
@@ -36,6 +37,8 @@ pub struct World {
     pub(crate) stores: Stores,
     pub(crate) clock: Clock,
     pub(crate) systems: SystemState,
+    pub(crate) tags: EntitySets,
+    pub(crate) groups: EntitySets,
 }
 
 impl World {
@@ -67,26 +70,8 @@ impl World {
 
     /// Removes one entity's components and gives its slot back.
     fn free(&mut self, entity: Entity) {
-        struct Remove {
-            entity: Entity,
-            components: u32,
-            now: Tick,
-        }
-        impl VisitorMut for Remove {
-            #[inline]
-            fn visit<C: Stored>(&mut self, columns: &mut Columns<C>) {
-                if self.components & (1 << C::KIND as u32) != 0 {
-                    columns.set_now(self.now);
-                    columns.remove(self.entity);
-                }
-            }
-        }
         if let Some(components) = self.entities.despawn(entity) {
-            self.stores.visit_mut(&mut Remove {
-                entity,
-                components,
-                now: self.clock.now(),
-            });
+            self.free_all(&[(entity, components)]);
         }
     }
 

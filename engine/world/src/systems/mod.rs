@@ -13,5 +13,6 @@ pub use world_matrices::update_world_matrices;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SystemState {
     matrices: world_matrices::MatrixState,
+    matrices_2d: world_matrices::MatrixState,
     bounds: bounds::BoundsState,
 }

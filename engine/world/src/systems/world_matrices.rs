@@ -1,136 +1,229 @@
 //! World matrices: the product of an entity's transform with its ancestors'.
 
-use glam::Affine3A;
+use glam::{Affine2, Affine3A};
 
-use crate::components::{Family, Transform, WorldMatrix};
+use crate::columns::Columns;
+use crate::components::{Family, Transform, Transform2d, WorldMatrix, WorldMatrix2d};
 use crate::entity::Entity;
+use crate::row_map::Layout;
+use crate::stores::Stored;
 use crate::ticks::Tick;
 use crate::world::World;
+
+/// A transform that is relative to a parent, in space or in the plane.
+trait Placed: Stored {
+    /// The component that holds the product.
+    type World: Stored;
+    /// The map itself.
+    type Matrix: Copy + PartialEq + Send + Sync;
+
+    /// The map of one row to its parent's space.
+    fn local(columns: &Columns<Self>, row: usize) -> Self::Matrix;
+    /// First `inner`, then `outer`.
+    fn compose(outer: &Self::Matrix, inner: &Self::Matrix) -> Self::Matrix;
+    /// The array of the products.
+    fn matrices<'a>(slices: SlicesMut<'a, Self::World>) -> &'a mut [Self::Matrix];
+    /// What the last run left for the next one.
+    fn state(world: &mut World) -> &mut MatrixState;
+}
+
+type SlicesMut<'a, C> = <<C as crate::Component>::Arrays as crate::Arrays>::SlicesMut<'a>;
+
+impl Placed for Transform {
+    type World = WorldMatrix;
+    type Matrix = Affine3A;
+
+    #[inline]
+    fn local(columns: &Columns<Self>, row: usize) -> Affine3A {
+        columns.row(row).matrix()
+    }
+    #[inline]
+    fn compose(outer: &Affine3A, inner: &Affine3A) -> Affine3A {
+        *outer * *inner
+    }
+    fn matrices<'a>(slices: SlicesMut<'a, WorldMatrix>) -> &'a mut [Affine3A] {
+        slices.matrix
+    }
+    fn state(world: &mut World) -> &mut MatrixState {
+        &mut world.systems.matrices
+    }
+}
+
+impl Placed for Transform2d {
+    type World = WorldMatrix2d;
+    type Matrix = Affine2;
+
+    #[inline]
+    fn local(columns: &Columns<Self>, row: usize) -> Affine2 {
+        columns.row(row).matrix()
+    }
+    #[inline]
+    fn compose(outer: &Affine2, inner: &Affine2) -> Affine2 {
+        *outer * *inner
+    }
+    fn matrices<'a>(slices: SlicesMut<'a, WorldMatrix2d>) -> &'a mut [Affine2] {
+        slices.matrix
+    }
+    fn state(world: &mut World) -> &mut MatrixState {
+        &mut world.systems.matrices_2d
+    }
+}
+
+/// No row above: the transform's parent is the world.
+const ROOT: u32 = u32::MAX;
 
 /// The tree as the system walks it, kept until the tree or the rows change.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MatrixState {
     seen: Tick,
-    /// Order of the Transform rows and of the tree for which the plan holds.
-    layout: (u64, Tick),
-    /// Whether a row has an ancestor with a Transform. Empty if none has.
-    has_parent: Vec<bool>,
-    /// Rows with such an ancestor and the row of that ancestor, parents first:
-    /// sorted by depth, and by row within one depth.
-    links: Vec<Link>,
+    /// Order of the transform's rows for which the plan holds.
+    layout: Option<Layout>,
+    /// For each row the row of the nearest ancestor with a transform, or `ROOT`.
+    /// Empty if no row has such an ancestor.
+    parents: Vec<u32>,
+    /// All rows sorted by depth, and by row within one depth. Empty if the rows
+    /// themselves have every parent before its children: they are walked as
+    /// they lie then, which reads memory in order.
+    order: Vec<u32>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Link {
-    row: u32,
-    parent: u32,
-}
-
-/// Writes the world matrix of every entity with a Transform whose own transform
-/// or that of an ancestor has changed since the last call.
+/// Writes the world matrix of every entity whose own transform or that of an
+/// ancestor has changed since the last call, in space ([`Transform`]) and in the
+/// plane of the screen ([`Transform2d`]).
 ///
-/// An ancestor without a Transform counts as one that does not move its
-/// children.
+/// An ancestor without a transform of the same kind counts as one that does not
+/// move its children.
 pub fn update_world_matrices(world: &mut World) {
-    let seen = world.systems.matrices.seen;
-    let transforms = world.columns::<Transform>();
-    let families = world.columns::<Family>();
-    if !transforms.any_changed_since(seen) && !families.any_changed_since(seen) {
+    update::<Transform>(world);
+    update::<Transform2d>(world);
+}
+
+fn update<P: Placed>(world: &mut World) {
+    let seen = P::state(world).seen;
+    let tree_changed = world.columns::<Family>().any_changed_since(seen);
+    if !tree_changed && !world.columns::<P>().any_changed_since(seen) {
         return;
     }
-    let mut state = std::mem::take(&mut world.systems.matrices);
-    let replanned = state.plan(world);
-    // The tick ends here, so that later writes are seen by the next call.
-    let now = world.observe();
-    let written = world.clock.now();
-
-    let transforms = crate::stores::Stored::columns(&world.stores);
-    let transforms: &crate::Columns<Transform> = transforms;
-    let input = transforms.slices();
-    let local = |row: usize| {
-        Affine3A::from_scale_rotation_translation(
-            input.scale[row],
-            input.rotation[row],
-            input.translation[row],
-        )
-    };
-    let roots: Vec<usize> = transforms
-        .changed_since(seen)
-        .filter(|&row| !state.has_parent.get(row).is_some_and(|&has| has))
-        .collect();
-    let _ = written;
-    let mut updates: Vec<(usize, Affine3A)> =
-        roots.into_iter().map(|row| (row, local(row))).collect();
-
-    // Depth by depth: a parent's matrix is final before its children read it.
-    let matrices = world.columns::<WorldMatrix>().matrix();
-    let mut fresh: Vec<Option<Affine3A>> = if state.links.is_empty() {
-        Vec::new()
+    let mut state = std::mem::take(P::state(world));
+    let replanned = state.plan::<P>(world, tree_changed);
+    // The tick ends here: what is written from now on, by this run first of all,
+    // carries a later one.
+    state.seen = world.observe();
+    let mut output = std::mem::take(world.columns_mut::<P::World>());
+    output.set_now(world.clock.now());
+    if state.parents.is_empty() {
+        update_flat::<P>(world.columns::<P>(), &mut output, seen);
     } else {
-        vec![None; matrices.len()]
-    };
-    if !state.links.is_empty() {
-        for &(row, matrix) in &updates {
-            fresh[row] = Some(matrix);
-        }
-        for link in &state.links {
-            let (row, parent) = (link.row as usize, link.parent as usize);
-            if replanned || fresh[parent].is_some() || transforms.row_changed_since(row, seen) {
-                let matrix = fresh[parent].unwrap_or(matrices[parent]) * local(row);
-                fresh[row] = Some(matrix);
-                updates.push((row, matrix));
-            }
-        }
+        let since = if replanned { Tick::START } else { seen };
+        state.update_tree::<P>(world.columns::<P>(), &mut output, since);
     }
-    let columns = world.columns_mut::<WorldMatrix>();
-    for (row, matrix) in updates {
-        columns.set_row(row, WorldMatrix { matrix });
-    }
-    state.seen = now;
-    world.systems.matrices = state;
+    *world.columns_mut::<P::World>() = output;
+    *P::state(world) = state;
+}
+
+/// Without a tree every row stands alone, and the threads share them.
+fn update_flat<P: Placed>(input: &Columns<P>, output: &mut Columns<P::World>, since: Tick) {
+    output.par_batches(|first, slices, marker| {
+        let matrices = P::matrices(slices);
+        for row in input.changed_in(first..first + matrices.len(), since) {
+            matrices[row - first] = P::local(input, row);
+            marker.mark(row - first);
+        }
+    });
 }
 
 impl MatrixState {
+    /// A parent's matrix is final before its children read it.
+    fn update_tree<P: Placed>(
+        &self,
+        input: &Columns<P>,
+        output: &mut Columns<P::World>,
+        since: Tick,
+    ) {
+        let started = self.seen;
+        let (slices, mut marker) = output.slices_and_marker();
+        let matrices = P::matrices(slices);
+        let mut visit = |row: usize| {
+            let parent = self.parents[row];
+            let has_parent = parent != ROOT;
+            let changed = input.row_changed_since(row, since)
+                || has_parent && marker.row_changed_since(parent as usize, started);
+            if changed {
+                let local = P::local(input, row);
+                let matrix = if has_parent {
+                    P::compose(&matrices[parent as usize], &local)
+                } else {
+                    local
+                };
+                // A new plan visits every row; those that stayed where they
+                // were need not go to the GPU again.
+                if matrices[row] != matrix {
+                    matrices[row] = matrix;
+                    marker.mark(row);
+                }
+            }
+        };
+        if self.order.is_empty() {
+            (0..self.parents.len()).for_each(visit);
+        } else {
+            self.order.iter().for_each(|&row| visit(row as usize));
+        }
+    }
+
     /// Brings the plan up to date. True if it was made anew.
-    fn plan(&mut self, world: &World) -> bool {
-        let transforms = world.columns::<Transform>();
+    fn plan<P: Placed>(&mut self, world: &World, tree_changed: bool) -> bool {
+        let input = world.columns::<P>();
         let families = world.columns::<Family>();
-        let tree_changed = families.any_changed_since(self.seen);
-        if !tree_changed && (families.is_empty() || self.layout.0 == transforms.layout_version()) {
+        let moved = !families.is_empty() && self.layout != Some(input.layout());
+        if !tree_changed && !moved {
             return false;
         }
-        self.layout.0 = transforms.layout_version();
-        self.links.clear();
-        self.has_parent.clear();
+        self.layout = Some(input.layout());
+        self.parents.clear();
+        self.order.clear();
         if families.is_empty() {
             return true;
         }
-        self.has_parent.resize(transforms.len(), false);
+        self.parents.resize(input.len(), ROOT);
 
         // Breadth first from the roots of the tree. Each entry holds the row of
-        // the nearest ancestor with a Transform.
-        let slices = families.slices();
-        let mut level: Vec<(Entity, Option<u32>)> = families
+        // the nearest ancestor with a transform.
+        let parent_of = families.parent().iter();
+        let mut level: Vec<(Entity, u32)> = families
             .entities()
             .iter()
-            .zip(slices.parent)
+            .zip(parent_of)
             .filter(|(_, parent)| **parent == Entity::NONE)
-            .map(|(&entity, _)| (entity, None))
+            .map(|(&entity, _)| (entity, ROOT))
             .collect();
         let mut next = Vec::new();
+        let mut below = Vec::new();
+        let mut in_order = true;
         while !level.is_empty() {
-            let first = self.links.len();
+            let first = below.len();
             for &(entity, above) in &level {
-                let row = transforms.row_of(entity).map(|row| row as u32);
-                if let (Some(row), Some(parent)) = (row, above) {
-                    self.links.push(Link { row, parent });
-                    self.has_parent[row as usize] = true;
+                let own = input.row_of(entity).map(|row| row as u32);
+                if let Some(row) = own
+                    && above != ROOT
+                {
+                    self.parents[row as usize] = above;
+                    in_order &= above < row;
+                    below.push(row);
                 }
-                next.extend(world.children(entity).map(|child| (child, row.or(above))));
+                let here = own.unwrap_or(above);
+                next.extend(world.children(entity).map(|child| (child, here)));
             }
-            self.links[first..].sort_unstable_by_key(|link| link.row);
+            below[first..].sort_unstable();
             std::mem::swap(&mut level, &mut next);
             next.clear();
+        }
+        if below.is_empty() {
+            self.parents.clear();
+        } else if !in_order {
+            let rows = 0..self.parents.len() as u32;
+            let roots = rows.filter(|&row| self.parents[row as usize] == ROOT);
+            self.order.extend(roots);
+            self.order.extend(below);
         }
         true
     }
@@ -140,7 +233,7 @@ impl MatrixState {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use glam::{Quat, Vec3};
+    use glam::{Quat, Vec2, Vec3};
 
     fn matrix(world: &World, entity: Entity) -> Affine3A {
         world.get::<WorldMatrix>(entity).unwrap().matrix
@@ -192,6 +285,7 @@ mod tests {
         }
         update_world_matrices(&mut world);
         check_all(&world);
+        assert!(!world.systems.matrices.order.is_empty());
 
         world.set(entities[0], sample(100)).unwrap();
         update_world_matrices(&mut world);
@@ -211,6 +305,45 @@ mod tests {
 
         world.despawn(entities[2]);
         update_world_matrices(&mut world);
+        check_all(&world);
+    }
+
+    #[test]
+    fn rows_in_order_are_walked_as_they_lie() {
+        let mut world = World::new();
+        let mut parent = None;
+        for i in 0..100 {
+            let entity = world.spawn();
+            world.insert(entity, sample(i)).unwrap();
+            if i % 8 != 0 {
+                world.set_parent(entity, parent).unwrap();
+            }
+            parent = Some(entity);
+        }
+        update_world_matrices(&mut world);
+        check_all(&world);
+        assert!(world.systems.matrices.order.is_empty());
+    }
+
+    #[test]
+    fn the_plane_has_its_own_tree() {
+        let mut world = World::new();
+        let [panel, label] = std::array::from_fn(|_| world.spawn());
+        let place = |x, y, turn| Transform2d {
+            translation: Vec2::new(x, y),
+            rotation: turn,
+            ..Transform2d::default()
+        };
+        world
+            .insert(panel, place(100.0, 50.0, std::f32::consts::FRAC_PI_2))
+            .unwrap();
+        world.insert(label, place(10.0, 0.0, 0.0)).unwrap();
+        world.insert(label, sample(3)).unwrap();
+        world.set_parent(label, Some(panel)).unwrap();
+        update_world_matrices(&mut world);
+        let matrix = world.get::<WorldMatrix2d>(label).unwrap().matrix;
+        let origin = matrix.transform_point2(Vec2::ZERO);
+        assert!(origin.distance(Vec2::new(100.0, 60.0)) < 1e-4);
         check_all(&world);
     }
 
