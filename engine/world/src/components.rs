@@ -9,9 +9,10 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use glam::{Affine2, Affine3A, Quat, Vec2, Vec3};
 
 use crate::component_macro::components;
+use crate::curve::Curve;
 use crate::entity::Entity;
 use crate::reflect::{ANY, POSITIVE};
-use crate::value::{MaterialId, MeshId, choice};
+use crate::value::{MaterialId, MeshId, Parameters, choice};
 
 choice! {
     /// The kinds of light.
@@ -24,6 +25,40 @@ choice! {
         Directional = "directional",
         /// Shines from everywhere alike.
         Ambient = "ambient",
+    }
+}
+
+choice! {
+    /// What an animation does at its end.
+    Repeat {
+        /// Stays at the last key.
+        Once = "once",
+        /// Starts again from the first key.
+        Loop = "loop",
+        /// Goes back and forth.
+        PingPong = "ping_pong",
+    }
+}
+
+choice! {
+    /// Where a text stands in relation to its origin.
+    Align {
+        /// The origin is at its left end.
+        Left = "left",
+        /// The origin is in its middle.
+        Center = "center",
+        /// The origin is at its right end.
+        Right = "right",
+    }
+}
+
+choice! {
+    /// The shape of a volume.
+    VolumeShape {
+        /// A box along the entity's own axes.
+        Box = "box",
+        /// An ellipsoid along the entity's own axes.
+        Ellipsoid = "ellipsoid",
     }
 }
 
@@ -160,5 +195,134 @@ components! {
         previous: Entity = Entity::NONE, "", ANY;
         /// The sibling after this one, or none.
         next: Entity = Entity::NONE, "", ANY;
+    }
+
+    /// Moves the entity evenly, in its parent's space.
+    #[derive(Copy)]
+    velocity: Velocity, Shown {
+        /// Change of the translation.
+        linear: Vec3 = Vec3::ZERO, "m/s", ANY;
+        /// Axis of the turn in the parent's space, as long as the turn is fast.
+        angular: Vec3 = Vec3::ZERO, "rad/s", ANY;
+    }
+
+    /// Moves the entity along keyframed curves. A curve without keys leaves its
+    /// part of the Transform alone.
+    rigid_animation: RigidAnimation, Hidden {
+        /// Translation over time, in metres.
+        translation: Curve<Vec3> = Curve::default(), "m", ANY;
+        /// Rotation over time.
+        rotation: Curve<Quat> = Curve::default(), "", ANY;
+        /// Scale over time.
+        scale: Curve<Vec3> = Curve::default(), "", ANY;
+        /// Time in the curves at the start of the scene.
+        offset: f32 = 0.0, "s", ANY;
+        /// Time in the curves for each second of the scene; negative runs
+        /// backwards.
+        speed: f32 = 1.0, "", ANY;
+        /// What happens at the end.
+        repeat: Repeat = Repeat::Loop, "", ANY;
+    }
+
+    /// Runs a script for the entity.
+    behaviour: Behaviour, Hidden {
+        /// Path of the script within the project.
+        script: String = String::new(), "", ANY;
+        /// Values that the script gets by name.
+        parameters: Parameters = Parameters::default(), "", ANY;
+        /// Whether it runs.
+        enabled: bool = true, "", ANY;
+    }
+
+    /// How a light casts shadows. A light without it casts none.
+    #[derive(Copy)]
+    shadow: Shadow, Hidden {
+        /// Side of the square shadow map.
+        resolution: u32 = 1024, "texels", (16.0, 16384.0);
+        /// Offset along the light's direction against false shadows.
+        depth_bias: f32 = 0.002, "m", POSITIVE;
+        /// Offset along the surface's normal, in shadow map texels.
+        normal_bias: f32 = 1.0, "texels", POSITIVE;
+        /// Distance of the shadow map's near plane.
+        near: f32 = 0.05, "m", (1e-6, f32::INFINITY);
+        /// Radius of the light's disc, which makes shadows soft.
+        source_radius: f32 = 0.0, "m", POSITIVE;
+    }
+
+    /// Confines a light to a volume that the user draws, so that it does not
+    /// shine through walls.
+    #[derive(Copy)]
+    clip_volume: ClipVolume, Hidden {
+        /// The shape.
+        shape: VolumeShape = VolumeShape::Box, "", ANY;
+        /// Centre in the entity's own space.
+        center: Vec3 = Vec3::ZERO, "m", ANY;
+        /// Half the extents in the entity's own space.
+        half_extents: Vec3 = Vec3::ONE, "m", POSITIVE;
+    }
+
+    /// Draws a line through points.
+    line_renderer: LineRenderer, Hidden {
+        /// The points in the entity's own space.
+        points: Vec<Vec3> = Vec::new(), "m", ANY;
+        /// Colour in linear Rec. 709.
+        color: Vec3 = Vec3::ONE, "", POSITIVE;
+        /// Width on the screen.
+        width: f32 = 1.0, "px", POSITIVE;
+    }
+
+    /// Draws text.
+    text_renderer: TextRenderer, Hidden {
+        /// The text.
+        text: String = String::new(), "", ANY;
+        /// Height of a line.
+        size: f32 = 16.0, "px", POSITIVE;
+        /// Colour in linear Rec. 709.
+        color: Vec3 = Vec3::ONE, "", POSITIVE;
+        /// Where the text stands in relation to its origin.
+        align: Align = Align::Left, "", ANY;
+    }
+
+    /// Draws a picture that faces the viewer.
+    #[derive(Copy)]
+    sprite_renderer: SpriteRenderer, Hidden {
+        /// The material whose base colour is the picture.
+        material: MaterialId = MaterialId(0), "", ANY;
+        /// Size on the screen, or in the world for an entity in space.
+        size: Vec2 = Vec2::ONE, "px or m", POSITIVE;
+        /// Colour in linear Rec. 709; multiplies the picture.
+        color: Vec3 = Vec3::ONE, "", POSITIVE;
+        /// Sprites of a higher layer cover those of a lower one.
+        layer: u32 = 0, "", ANY;
+    }
+
+    /// Draws particles.
+    #[derive(Copy)]
+    particle_renderer: ParticleRenderer, Hidden {
+        /// The material of each particle.
+        material: MaterialId = MaterialId(0), "", ANY;
+        /// Particles that start each second.
+        rate: f32 = 50.0, "1/s", POSITIVE;
+        /// Life of a particle.
+        lifetime: f32 = 2.0, "s", POSITIVE;
+        /// Speed at the start, along the entity's y axis.
+        speed: f32 = 1.0, "m/s", ANY;
+        /// Full angle of the cone in which particles start.
+        spread: f32 = 0.5, "rad", (0.0, 2.0 * PI);
+        /// Acceleration in world space.
+        acceleration: Vec3 = Vec3::new(0.0, -9.81, 0.0), "m/s²", ANY;
+        /// Diameter of a particle.
+        size: f32 = 0.05, "m", POSITIVE;
+        /// Colour in linear Rec. 709.
+        color: Vec3 = Vec3::ONE, "", POSITIVE;
+        /// Start of the random numbers.
+        seed: u32 = 0, "", ANY;
+    }
+
+    /// Components of a scene file that this version does not know, as they stood
+    /// there.
+    kept_text: KeptText, Hidden {
+        /// Lines of the file.
+        lines: Vec<String> = Vec::new(), "", ANY;
     }
 }

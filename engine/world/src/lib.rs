@@ -11,6 +11,7 @@
 //! - [`culling`]: which bounds a view shows.
 //! - [`fields`] and [`reflect`]: components by name.
 
+mod access;
 mod batches;
 mod bundle;
 mod clock;
@@ -20,6 +21,7 @@ mod component_macro;
 mod component_methods;
 pub mod components;
 pub mod culling;
+pub mod curve;
 mod entity;
 mod error;
 pub mod fields;
@@ -29,6 +31,7 @@ mod messages;
 pub mod query;
 pub mod reflect;
 mod row_map;
+pub mod schedule;
 mod sets;
 mod stores;
 pub mod systems;
@@ -36,14 +39,16 @@ mod ticks;
 mod value;
 mod world;
 
+pub use access::{ReadSet, WriteSet};
 pub use batches::{BatchMarker, SliceSet};
 pub use bundle::Bundle;
 pub use columns::{Arrays, Columns, Component, Marker};
 pub use commands::{Commands, Target};
 pub use components::{
-    Camera, ComponentKind, Light, LightKind, MeshRenderer, Name, Row, Transform, Transform2d,
-    WorldBounds, WorldMatrix, WorldMatrix2d,
+    Behaviour, Camera, ComponentKind, Light, LightKind, MeshRenderer, Name, RigidAnimation, Row,
+    Transform, Transform2d, Velocity, WorldBounds, WorldMatrix, WorldMatrix2d,
 };
+pub use curve::Curve;
 pub use entity::Entity;
 pub use error::WorldError;
 pub use glam;
@@ -52,9 +57,10 @@ pub use merge::{EntityMap, Snapshot};
 pub use messages::{Mailbox, Outbox};
 pub use query::Join;
 pub use row_map::Layout;
+pub use schedule::Schedule;
 pub use sets::EntitySets;
 pub use stores::Stored;
 pub use systems::MeshBounds;
 pub use ticks::Tick;
-pub use value::{FieldType, MaterialId, MeshId, Value, ValueType};
+pub use value::{FieldType, MaterialId, MeshId, Parameters, Value, ValueType};
 pub use world::World;

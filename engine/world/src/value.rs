@@ -102,6 +102,10 @@ pub trait FieldType: Clone + Send + Sync + 'static {
     }
 }
 
+/// Named values, in the order in which they were given.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parameters(pub Vec<(String, Value)>);
+
 /// A handle to a mesh. The asset store gives it out and knows what it means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MeshId(pub u32);
@@ -130,9 +134,43 @@ impl Value {
             Value::Map(_) => "named values",
         }
     }
+
+    fn map_entities(&mut self, map: &EntityMap) {
+        match self {
+            Value::Entity(entity) => entity.map_entities(map),
+            Value::List(items) => items.iter_mut().for_each(|item| item.map_entities(map)),
+            Value::Map(entries) => {
+                entries
+                    .iter_mut()
+                    .for_each(|(_, value)| value.map_entities(map));
+            }
+            _ => {}
+        }
+    }
+
+    fn heap_bytes(&self) -> usize {
+        match self {
+            Value::Text(text) => text.capacity(),
+            Value::List(items) => {
+                items.capacity() * size_of::<Value>()
+                    + items.iter().map(Value::heap_bytes).sum::<usize>()
+            }
+            Value::Map(entries) => map_bytes(entries),
+            _ => 0,
+        }
+    }
 }
 
-fn mismatch(expected: &str, value: &Value) -> String {
+/// Bytes that named values hold outside their vector.
+fn map_bytes(entries: &Vec<(String, Value)>) -> usize {
+    let inside = entries.iter();
+    entries.capacity() * size_of::<(String, Value)>()
+        + inside
+            .map(|(name, value)| name.capacity() + value.heap_bytes())
+            .sum::<usize>()
+}
+
+pub(crate) fn mismatch(expected: &str, value: &Value) -> String {
     format!("expected {expected}, found {}", value.kind())
 }
 
@@ -298,6 +336,27 @@ impl<T: FieldType> FieldType for Vec<T> {
     }
     fn heap_bytes(&self) -> usize {
         self.capacity() * size_of::<T>() + self.iter().map(FieldType::heap_bytes).sum::<usize>()
+    }
+}
+
+impl FieldType for Parameters {
+    const TYPE: ValueType = ValueType::Map;
+    fn to_value(&self) -> Value {
+        Value::Map(self.0.clone())
+    }
+    fn from_value(value: &Value) -> Result<Self, String> {
+        match value {
+            Value::Map(entries) => Ok(Self(entries.clone())),
+            other => Err(mismatch("named values", other)),
+        }
+    }
+    fn map_entities(&mut self, map: &EntityMap) {
+        self.0
+            .iter_mut()
+            .for_each(|(_, value)| value.map_entities(map));
+    }
+    fn heap_bytes(&self) -> usize {
+        map_bytes(&self.0)
     }
 }
 

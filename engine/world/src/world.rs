@@ -187,6 +187,20 @@ impl World {
         columns
     }
 
+    /// Takes one component's columns out, so that they can be written while the
+    /// others are read. They carry the present tick.
+    pub(crate) fn take_columns<C: Stored>(&mut self) -> Columns<C> {
+        let now = self.clock.now();
+        let mut columns = std::mem::take(C::columns_mut(&mut self.stores));
+        columns.set_now(now);
+        columns
+    }
+
+    /// Puts columns back that [`World::take_columns`] took out.
+    pub(crate) fn put_columns<C: Stored>(&mut self, columns: Columns<C>) {
+        *C::columns_mut(&mut self.stores) = columns;
+    }
+
     /// The first entity, in the order of slots, of this name.
     pub fn find(&self, name: &str) -> Option<Entity> {
         let names = self.columns::<Name>();

@@ -109,15 +109,14 @@ fn update<P: Placed>(world: &mut World) {
     // The tick ends here: what is written from now on, by this run first of all,
     // carries a later one.
     state.seen = world.observe();
-    let mut output = std::mem::take(world.columns_mut::<P::World>());
-    output.set_now(world.clock.now());
+    let mut output = world.take_columns::<P::World>();
     if state.parents.is_empty() {
         update_flat::<P>(world.columns::<P>(), &mut output, seen);
     } else {
         let since = if replanned { Tick::START } else { seen };
         state.update_tree::<P>(world.columns::<P>(), &mut output, since);
     }
-    *world.columns_mut::<P::World>() = output;
+    world.put_columns(output);
     *P::state(world) = state;
 }
 
