@@ -18,10 +18,12 @@
 mod assets;
 pub mod color;
 pub mod files;
+pub mod images;
 mod material;
 mod mesh;
 pub mod procedural;
 pub mod procedural_texture;
+mod progress;
 mod tangents;
 mod texture;
 
@@ -29,4 +31,5 @@ pub use assets::{Assets, Entry, UnknownAsset};
 pub use lightbench_world::{MaterialId, MeshBounds, MeshId};
 pub use material::Material;
 pub use mesh::{Mesh, MeshError};
+pub use progress::{Cancelled, Progress, Task, TaskLost};
 pub use texture::{MAX_TEXTURE_SIZE, Texture, TextureError, TextureFormat, TextureId};

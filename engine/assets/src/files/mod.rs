@@ -14,6 +14,7 @@
 mod atomic;
 mod error;
 mod list;
+mod observer;
 mod path;
 mod project;
 mod shipped {
@@ -27,6 +28,7 @@ use std::path::{Path, PathBuf};
 pub use atomic::write_atomic;
 pub use error::FileError;
 pub use list::Listed;
+use observer::Observer;
 pub use path::{check, join};
 pub use project::{PROJECT_MARKER, create_project, find_project};
 
@@ -53,6 +55,7 @@ pub struct Files {
     shipped: &'static [(&'static str, &'static [u8])],
     /// Canonical folders.
     grants: Vec<PathBuf>,
+    observer: Observer,
 }
 
 impl Files {
@@ -63,6 +66,7 @@ impl Files {
             project: None,
             shipped: shipped::SHIPPED,
             grants: Vec::new(),
+            observer: Observer::default(),
         }
     }
 
@@ -83,6 +87,16 @@ impl Files {
             project: Some(canonical),
             ..Self::shipped()
         })
+    }
+
+    /// The same store, whose reads are told to `observe` with the path and the
+    /// bytes, as they are on the disk. A report hashes its inputs so.
+    #[must_use]
+    pub fn observed(&self, observe: impl Fn(&str, &[u8]) + Send + Sync + 'static) -> Self {
+        Self {
+            observer: Observer::new(observe),
+            ..self.clone()
+        }
     }
 
     /// The project's folder, if there is one.
@@ -130,13 +144,15 @@ impl Files {
     /// A path that is not allowed, a file that is in no layer, can't be read
     /// or is larger than [`MAX_FILE_BYTES`].
     pub fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        match self.origin(path)? {
+        let bytes = match self.origin(path)? {
             Origin::Project(on_disk) => read_limited(&on_disk),
             Origin::Shipped => self
                 .shipped_bytes(path)
                 .map(<[u8]>::to_vec)
                 .ok_or_else(|| FileError::not_found(path, self.project())),
-        }
+        }?;
+        self.observer.tell(path, &bytes);
+        Ok(bytes)
     }
 
     /// The text of a file, which must be UTF-8. A byte-order mark is taken off
@@ -290,6 +306,22 @@ fn is_absent(error: &std::io::Error) -> bool {
         error.kind(),
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory
     )
+}
+
+/// The bytes of a file anywhere on the disk that the user named, such as a
+/// picture to compare with.
+///
+/// # Errors
+/// A file that can't be read, is a folder, or is larger than
+/// [`MAX_FILE_BYTES`].
+pub fn read_path(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
+    let path = path.as_ref();
+    if path.is_dir() {
+        return Err(FileError::IsAFolder {
+            path: path.to_owned(),
+        });
+    }
+    read_limited(path)
 }
 
 fn read_limited(path: &Path) -> Result<Vec<u8>, FileError> {
