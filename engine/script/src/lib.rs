@@ -1,1 +1,35 @@
-//! See the crate description.
+//! The Rhai interface: scenes and pipelines.
+//!
+//! - [`load_pipeline`] evaluates a file of `scripts/pipelines/` into a
+//!   [`PipelineDesc`](lightbench_render::PipelineDesc).
+//!
+//! Scripts are not trusted. They reach no file outside of the project, and [`Limits`] bound their
+//! time, their memory and the size of everything they make. Every mistake is a
+//! [`Problem`](lightbench_render::Problem) with its file, line and column, in words that name no
+//! type of the program.
+#![warn(missing_docs)]
+
+mod api;
+mod color;
+mod compile;
+mod errors;
+mod host;
+mod limits;
+mod log;
+mod math;
+mod memory;
+mod names;
+mod noise;
+mod pipeline;
+mod random;
+mod resolver;
+mod settings;
+mod sources;
+mod syntax;
+
+pub use limits::Limits;
+pub use log::LogLine;
+pub use memory::CountingAllocator;
+pub use names::{Entry, Names};
+pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
+pub use settings::{SettingValue, Settings};

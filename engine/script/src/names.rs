@@ -1,0 +1,183 @@
+//! Every name that scripts can use, with its forms, for messages and for the reference.
+
+use std::collections::BTreeSet;
+
+use lightbench_render::problem::suggestion;
+
+/// One form of a function, method or property.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The type that it belongs to, as in "entity"; `None` for a plain function.
+    pub receiver: Option<&'static str>,
+    /// Its name.
+    pub name: String,
+    /// Names of its arguments.
+    pub arguments: Vec<String>,
+    /// Whether it is read (and perhaps written) without parentheses.
+    pub property: bool,
+    /// What it does, with units and ranges.
+    pub about: &'static str,
+}
+
+impl Entry {
+    /// Reads a form as `range(metres)`.
+    pub(crate) fn new(
+        receiver: Option<&'static str>,
+        form: &str,
+        property: bool,
+        about: &'static str,
+    ) -> Self {
+        let (name, rest) = form.split_once('(').unwrap_or((form, ""));
+        let arguments = rest
+            .trim_end_matches(')')
+            .split(',')
+            .map(str::trim)
+            .filter(|argument| !argument.is_empty())
+            .map(str::to_owned)
+            .collect();
+        Self {
+            receiver,
+            name: name.trim().to_owned(),
+            arguments,
+            property,
+            about,
+        }
+    }
+
+    /// The form as one writes it: `at(x, y, z)`, `.range(metres)`, `.position`.
+    #[must_use]
+    pub fn form(&self) -> String {
+        let dot = if self.receiver.is_some() { "." } else { "" };
+        if self.property {
+            return format!("{dot}{}", self.name);
+        }
+        format!("{dot}{}({})", self.name, self.arguments.join(", "))
+    }
+}
+
+/// Every name that the engine gives to a kind of script.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    entries: Vec<Entry>,
+    /// Plain functions of Rhai itself.
+    builtin: BTreeSet<String>,
+    types: Vec<&'static str>,
+}
+
+impl Names {
+    /// The forms of everything that Lightbench adds to Rhai, in the order of registration.
+    #[must_use]
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    pub(crate) fn add(&mut self, entry: Entry) {
+        self.entries.push(entry);
+    }
+
+    pub(crate) fn add_type(&mut self, name: &'static str) {
+        if !self.types.contains(&name) {
+            self.types.push(name);
+        }
+    }
+
+    /// Takes note of Rhai's own functions from their signatures, as in `push(array: array)`.
+    pub(crate) fn add_builtin(&mut self, signature: &str) {
+        let name = signature.split('(').next().unwrap_or_default().trim();
+        let word = name.starts_with(|c: char| c.is_ascii_alphabetic())
+            && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if word {
+            self.builtin.insert(name.to_owned());
+        }
+    }
+
+    pub(crate) fn is_type(&self, name: &str) -> bool {
+        self.types.contains(&name)
+    }
+
+    /// The forms of a method of that type, or of a plain function.
+    pub(crate) fn forms(&self, receiver: Option<&str>, name: &str) -> Vec<String> {
+        let mut forms: Vec<String> = self
+            .entries
+            .iter()
+            .filter(|entry| entry.receiver == receiver && entry.name == name)
+            .map(Entry::form)
+            .collect();
+        forms.dedup();
+        forms
+    }
+
+    /// Whether Rhai itself has a function of that name.
+    pub(crate) fn is_builtin(&self, name: &str) -> bool {
+        self.builtin.contains(name)
+    }
+
+    /// The nearest plain function.
+    pub(crate) fn near_function(&self, name: &str, own: &[String]) -> Option<String> {
+        let names = self
+            .entries
+            .iter()
+            .filter(|entry| entry.receiver.is_none())
+            .map(|entry| entry.name.as_str())
+            .chain(own.iter().map(String::as_str))
+            .chain(self.builtin.iter().map(String::as_str));
+        suggestion(name, names)
+    }
+
+    /// The nearest method of that type.
+    pub(crate) fn near_method(&self, receiver: &str, name: &str) -> Option<String> {
+        suggestion(name, self.members(receiver, false))
+    }
+
+    /// The nearest property of that type.
+    pub(crate) fn near_property(&self, receiver: &str, name: &str) -> Option<String> {
+        suggestion(name, self.members(receiver, true))
+    }
+
+    /// The names of all methods, or all properties, of that type.
+    pub(crate) fn members<'a>(
+        &'a self,
+        receiver: &'a str,
+        property: bool,
+    ) -> impl Iterator<Item = &'a str> {
+        self.entries
+            .iter()
+            .filter(move |entry| entry.receiver == Some(receiver) && entry.property == property)
+            .map(|entry| entry.name.as_str())
+    }
+}
+
+/// A list for a sentence: `a`, `b` or `c`.
+pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>, last: &str) -> String {
+    let mut seen = BTreeSet::new();
+    let names: Vec<String> = names
+        .into_iter()
+        .filter(|name| seen.insert(*name))
+        .map(|name| format!("`{name}`"))
+        .collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [only] => only.clone(),
+        [front @ .., end] => format!("{} {last} {end}", front.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forms_read_as_one_writes_them() {
+        let entry = |receiver, form, property| Entry::new(receiver, form, property, "");
+        assert_eq!(entry(None, "noise(x, y)", false).form(), "noise(x, y)");
+        assert_eq!(entry(Some("lamp"), "off()", false).form(), ".off()");
+        assert_eq!(entry(Some("vec3"), "x", true).form(), ".x");
+        assert_eq!(entry(None, "noise(x, y)", false).arguments, ["x", "y"]);
+    }
+
+    #[test]
+    fn lists_read_as_sentences() {
+        assert_eq!(list(["a"], "or"), "`a`");
+        assert_eq!(list(["a", "b", "a", "c"], "or"), "`a`, `b` or `c`");
+    }
+}

@@ -1,0 +1,252 @@
+//! The `pipeline(…)` object, which gathers what a file declares and what is wrong with it.
+
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lightbench_render::description::Named;
+use lightbench_render::problem::suggestion;
+use lightbench_render::{PipelineDesc, Place, Problem, Problems};
+use rhai::Dynamic;
+
+use super::{parameters, passes, targets};
+use crate::api::{Api, Arguments, Mistake, ScriptType};
+use crate::compile::Compiler;
+use crate::names::list;
+use crate::settings::Settings;
+
+/// One pipeline while its file runs.
+///
+/// Mistakes are noted and the file goes on, so that a student sees all of them at once.
+#[derive(Debug)]
+pub(super) struct Builder {
+    pub(super) desc: PipelineDesc,
+    pub(super) problems: Vec<Problem>,
+    /// What the last `.writes` or `.depth` of each pass was.
+    pub(super) last: Vec<Last>,
+    pub(super) settings: Settings,
+}
+
+/// What `.clear`, `.blend` and `.test` of a pass apply to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Last {
+    Nothing,
+    Color,
+    Depth,
+}
+
+/// A pipeline, as scripts hold it.
+#[derive(Clone, Debug)]
+pub(super) struct Pipeline(Arc<Mutex<Builder>>);
+
+impl ScriptType for Pipeline {
+    const NAME: &'static str = "pipeline";
+}
+
+impl Pipeline {
+    pub(super) fn lock(&self) -> MutexGuard<'_, Builder> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does something to the builder; a mistake is noted at the place of the call.
+    pub(super) fn note(
+        &self,
+        arguments: &Arguments,
+        work: impl FnOnce(&mut Builder, Place) -> Result<(), Mistake>,
+    ) {
+        let at = arguments.place();
+        let mut builder = self.lock();
+        if let Err(mistake) = work(&mut builder, at.clone()) {
+            builder.problems.push(problem(at, mistake));
+        }
+    }
+}
+
+/// The pipelines that a file makes: usually one.
+#[derive(Clone, Debug)]
+pub(super) struct Pipelines {
+    path: String,
+    settings: Settings,
+    made: Arc<Mutex<Vec<Pipeline>>>,
+}
+
+impl Pipelines {
+    pub(super) fn new(path: &str, settings: &Settings) -> Self {
+        Self {
+            path: path.to_owned(),
+            settings: settings.clone(),
+            made: Arc::default(),
+        }
+    }
+
+    fn made(&self) -> MutexGuard<'_, Vec<Pipeline>> {
+        self.made.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn begin(&self, title: String, at: &Place) -> Pipeline {
+        let stem = self.path.rsplit('/').next().unwrap_or_default();
+        let desc = PipelineDesc {
+            name: stem.trim_end_matches(".rhai").to_owned(),
+            file: Place::new(self.path.as_str(), at.line, at.column),
+            title,
+            ..PipelineDesc::default()
+        };
+        let pipeline = Pipeline(Arc::new(Mutex::new(Builder {
+            desc,
+            problems: Vec::new(),
+            last: Vec::new(),
+            settings: self.settings.clone(),
+        })));
+        self.made().push(pipeline.clone());
+        pipeline
+    }
+
+    /// What the file made, or everything that is wrong with it.
+    pub(super) fn finish(
+        &self,
+        result: Result<Dynamic, Problem>,
+        compiler: &Compiler,
+    ) -> Result<PipelineDesc, Problems> {
+        let value = result.as_ref().ok().cloned();
+        let chosen = value.and_then(|value| value.try_cast::<Pipeline>());
+        let pipeline = chosen.or_else(|| self.made().last().cloned());
+        let mut problems = Vec::new();
+        let mut desc = None;
+        if let Some(pipeline) = pipeline {
+            let mut builder = pipeline.lock();
+            problems.append(&mut builder.problems);
+            if result.is_ok() {
+                problems.extend(builder.unknown_settings());
+            }
+            desc = Some(builder.desc.clone());
+        } else if result.is_ok() {
+            problems.push(
+                Problem::new(
+                    Place::file(self.path.as_str()),
+                    "the file makes no pipeline",
+                )
+                .with_hint("begin with `let p = pipeline(\"Title\");`"),
+            );
+        }
+        problems.extend(result.err());
+        let explainer = compiler.explainer();
+        // A mistake in a loop is one mistake.
+        let mut seen = BTreeSet::new();
+        problems.retain(|p| seen.insert((p.place.to_string(), p.message.clone())));
+        let problems: Vec<Problem> = problems
+            .into_iter()
+            .map(|problem| explainer.with_source(problem))
+            .collect();
+        match desc {
+            Some(desc) if problems.is_empty() => Ok(desc),
+            _ => Err(Problems(problems)),
+        }
+    }
+}
+
+impl Builder {
+    /// Settings that no parameter has taken.
+    fn unknown_settings(&self) -> Vec<Problem> {
+        let names = || self.desc.parameters.iter().map(|p| p.name.as_str());
+        let mut problems = Vec::new();
+        for (name, _) in self.settings.iter() {
+            if names().any(|known| known == name) {
+                continue;
+            }
+            let mut problem = Problem::new(
+                Place::file(Arc::clone(&self.desc.file.file)),
+                format!(
+                    "the pipeline `{}` has no parameter `{name}`",
+                    self.desc.name
+                ),
+            );
+            problem.hint = Some(match suggestion(name, names()) {
+                Some(hint) => hint,
+                None if self.desc.parameters.is_empty() => "it has no parameters".to_owned(),
+                None => format!("it has {}", list(names(), "and")),
+            });
+            problems.push(problem);
+        }
+        problems
+    }
+}
+
+pub(super) fn problem(at: Place, mistake: Mistake) -> Problem {
+    let mut problem = Problem::new(at, mistake.message);
+    problem.hint = mistake.hint;
+    problem
+}
+
+/// A name that a shader uses must be one that WGSL accepts.
+pub(super) fn shader_name(name: &str, what: &str) -> Result<(), Mistake> {
+    let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let good = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(letters)
+        && !name.starts_with("__")
+        && name != "_";
+    if good {
+        return Ok(());
+    }
+    Err(
+        Mistake::new(format!("`{name}` can't be the name of {what}"))
+            .with_hint("shaders use the name: letters a to z, digits and `_`, no digit first"),
+    )
+}
+
+/// Registers everything that a pipeline file can call.
+pub(super) fn register(api: &mut Api, made: &Pipelines) {
+    api.object::<Pipeline>();
+    let made = made.clone();
+    api.function(
+        "pipeline(title)",
+        "Begins a pipeline. The file's last line gives it back.",
+        move |arguments| {
+            let title = arguments.text(0)?;
+            Ok(made.begin(title, &arguments.place()))
+        },
+    );
+    method(
+        api,
+        "describe(text)",
+        "Says in a sentence or two what the pipeline trades and when to choose it.",
+        |builder, arguments, _| {
+            builder.desc.description = arguments.text(0)?;
+            Ok(())
+        },
+    );
+    method(
+        api,
+        "hdr(target)",
+        "Names the linear HDR target, before exposure and tone curve.",
+        |builder, arguments, at| {
+            let name = arguments.text(0)?;
+            builder.desc.hdr = Some(Named { name, at });
+            Ok(())
+        },
+    );
+    method(
+        api,
+        "show(target)",
+        "Names the target that the viewport and picture files show.",
+        |builder, arguments, at| {
+            let name = arguments.text(0)?;
+            builder.desc.output = Some(Named { name, at });
+            Ok(())
+        },
+    );
+    parameters::register(api);
+    targets::register(api);
+    passes::register(api);
+}
+
+/// Registers a method of the pipeline that gives the pipeline back.
+pub(super) fn method(
+    api: &mut Api,
+    form: &str,
+    about: &'static str,
+    body: impl Fn(&mut Builder, &Arguments, Place) -> Result<(), Mistake> + Send + Sync + 'static,
+) {
+    api.method(form, about, move |pipeline: Pipeline, arguments| {
+        pipeline.note(arguments, |builder, at| body(builder, arguments, at));
+        Ok(pipeline)
+    });
+}

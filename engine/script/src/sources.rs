@@ -1,0 +1,86 @@
+//! The scripts that a run has read, for messages and for the list of what it depends on.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use rhai::{Engine, Token};
+
+/// One script file.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Source {
+    pub(crate) text: Arc<str>,
+    /// Functions that it defines.
+    pub(crate) functions: Vec<String>,
+    /// Every name that it gives to a variable or constant, anywhere.
+    pub(crate) variables: Vec<String>,
+    /// The constants outside of functions and blocks.
+    pub(crate) constants: Vec<String>,
+}
+
+impl Source {
+    /// Reads the names from the text's tokens. Works on texts with mistakes too.
+    pub(crate) fn new(engine: &Engine, text: &str) -> Self {
+        let mut source = Self {
+            text: text.into(),
+            ..Self::default()
+        };
+        let mut depth = 0_i32;
+        let mut before = Token::EOF;
+        for (token, _) in engine.lex(&[text]).0 {
+            if let Token::Identifier(name) = &token {
+                match before {
+                    Token::Fn => source.functions.push(name.to_string()),
+                    Token::Let | Token::For => source.variables.push(name.to_string()),
+                    Token::Const => {
+                        source.variables.push(name.to_string());
+                        if depth == 0 {
+                            source.constants.push(name.to_string());
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            match token {
+                Token::LeftBrace | Token::MapStart => depth += 1,
+                Token::RightBrace => depth -= 1,
+                Token::EOF => break,
+                _ => {}
+            }
+            before = token;
+        }
+        source
+    }
+}
+
+/// All files of a run, by path.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sources(Arc<Mutex<BTreeMap<String, Source>>>);
+
+impl Sources {
+    pub(crate) fn add(&self, path: &str, source: Source) {
+        self.lock().insert(path.to_owned(), source);
+    }
+
+    pub(crate) fn get(&self, path: &str) -> Option<Source> {
+        self.lock().get(path).cloned()
+    }
+
+    pub(crate) fn text(&self, path: &str) -> Option<Arc<str>> {
+        self.lock().get(path).map(|source| Arc::clone(&source.text))
+    }
+
+    /// The functions of all files.
+    pub(crate) fn functions(&self) -> Vec<String> {
+        let files = self.lock();
+        files.values().flat_map(|s| s.functions.clone()).collect()
+    }
+
+    /// The paths of all files.
+    pub(crate) fn paths(&self) -> Vec<String> {
+        self.lock().keys().cloned().collect()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Source>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
