@@ -26,6 +26,9 @@ pub struct Renderer {
     frame: Frame,
     queries: Queries,
     statistics: FrameStatistics,
+    /// Counts the frames of this renderer, for the queries.
+    serial: u32,
+    /// What shaders see as `frame_index`.
     index: u32,
 }
 
@@ -68,6 +71,7 @@ impl Renderer {
             gpu,
             frame: Frame::default(),
             statistics: FrameStatistics::default(),
+            serial: 0,
             index: 0,
         }
     }
@@ -153,7 +157,7 @@ impl Renderer {
             .gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.queries.begin(self.index, pipeline.desc.passes.len());
+        self.queries.begin(self.serial, pipeline.desc.passes.len());
         let recording = Recording {
             frame: &self.frame,
             meshes: &self.scene.meshes,
@@ -176,13 +180,20 @@ impl Renderer {
         self.statistics.lights = self.frame.volumes.len() as u32;
         self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
         self.statistics.target_bytes = target_bytes;
+        self.serial = self.serial.wrapping_add(1);
         self.index = self.index.wrapping_add(1);
         Ok(&self.statistics)
     }
 
     /// The number that the next frame will have in [`Measured::frame`].
     pub fn next_frame(&self) -> u32 {
-        self.index
+        self.serial
+    }
+
+    /// Sets what the shaders of the next frame see as `frame_index`, which then counts on. Several
+    /// pipelines that draw the same moment of a scene must see the same.
+    pub fn set_frame_index(&mut self, index: u32) {
+        self.index = index;
     }
 
     /// The frame as it was last extracted.
