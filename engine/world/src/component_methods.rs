@@ -4,7 +4,7 @@ use glam::{Affine2, Affine3A, Quat, Vec3};
 
 use crate::columns::Columns;
 use crate::components::{Name, Transform, Transform2d, WorldBounds};
-use crate::culling::Spheres;
+use crate::culling::{Boxes, Spheres};
 
 impl Transform {
     /// No rotation, no scale.
@@ -73,6 +73,19 @@ impl Columns<WorldBounds> {
             y: slices.y,
             z: slices.z,
             radius: slices.radius,
+        }
+    }
+
+    /// The bounding boxes, as culling takes them.
+    pub fn boxes(&self) -> Boxes<'_> {
+        let slices = self.slices();
+        Boxes {
+            x: slices.x,
+            y: slices.y,
+            z: slices.z,
+            half_x: slices.half_x,
+            half_y: slices.half_y,
+            half_z: slices.half_z,
         }
     }
 }

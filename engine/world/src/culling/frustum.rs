@@ -69,25 +69,17 @@ impl Frustum {
             planes: [w + x, w - x, w + y, w - y, w - z, z].map(Plane::from_coefficients),
         }
     }
-
-    /// Whether a sphere may be visible: no plane has it wholly outside. A sphere
-    /// with a coordinate that is not a number is not visible.
-    #[inline]
-    pub fn intersects_sphere(&self, x: f32, y: f32, z: f32, radius: f32) -> bool {
-        self.planes
-            .iter()
-            .all(|plane| plane.distance_to(x, y, z) >= -radius)
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::culling::Volume;
     use glam::camera::rh::proj::directx;
     use glam::camera::rh::view::look_at_mat4;
 
     fn sees(frustum: &Frustum, point: Vec3) -> bool {
-        frustum.intersects_sphere(point.x, point.y, point.z, 0.0)
+        frustum.touches(point.x, point.y, point.z, 0.0)
     }
 
     /// Swapping near and far reverses the depth.
@@ -150,10 +142,10 @@ mod tests {
     #[test]
     fn spheres_count_as_visible_up_to_their_radius() {
         let frustum = Frustum::from_view_projection(reverse(1.0, 1.0, 1.0, 10.0));
-        assert!(frustum.intersects_sphere(0.0, 0.0, -11.9, 2.0));
-        assert!(!frustum.intersects_sphere(0.0, 0.0, -12.1, 2.0));
-        assert!(!frustum.intersects_sphere(f32::NAN, 0.0, -5.0, 1.0));
-        assert!(!frustum.intersects_sphere(0.0, 0.0, -5.0, f32::NAN));
-        assert!(frustum.intersects_sphere(0.0, 0.0, -500.0, f32::INFINITY));
+        assert!(frustum.touches(0.0, 0.0, -11.9, 2.0));
+        assert!(!frustum.touches(0.0, 0.0, -12.1, 2.0));
+        assert!(!frustum.touches(f32::NAN, 0.0, -5.0, 1.0));
+        assert!(!frustum.touches(0.0, 0.0, -5.0, f32::NAN));
+        assert!(frustum.touches(0.0, 0.0, -500.0, f32::INFINITY));
     }
 }
