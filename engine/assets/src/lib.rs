@@ -7,6 +7,7 @@
 //!   changed.
 //! - [`files`] is the one door to the disk: shipped data inside the program,
 //!   covered by the files of a student's project.
+//! - [`obj`] and [`images`] read what other programs made.
 //! - [`procedural`] and [`procedural_texture`] make geometry and pictures from
 //!   parameters.
 //!
@@ -21,6 +22,7 @@ pub mod files;
 pub mod images;
 mod material;
 mod mesh;
+pub mod obj;
 pub mod procedural;
 pub mod procedural_texture;
 mod progress;

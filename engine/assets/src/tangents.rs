@@ -32,7 +32,7 @@ impl Mesh {
         let mut hands = vec![1.0; self.positions.len()];
         for (corners, frame) in self.triangles().zip(&frames) {
             let Some(frame) = frame else { continue };
-            let positions = corners.map(|corner| self.positions[corner]);
+            let positions = corners.map(|corner| self.positions[corner].as_dvec3());
             for (at, &vertex) in corners.iter().enumerate() {
                 let normal = self.normals[vertex];
                 let tangent = frame.tangent.reject_from_normalized(normal);
@@ -40,7 +40,7 @@ impl Mesh {
                 let to_last = positions[(at + 2) % 3] - positions[at];
                 let angle = to_next.angle_between(to_last);
                 if angle.is_finite() {
-                    sums[vertex] += tangent.normalize_or_zero() * angle;
+                    sums[vertex] += tangent.normalize_or_zero() * angle as f32;
                 }
                 if frame.mirrored {
                     hands[vertex] = -1.0;
@@ -68,8 +68,9 @@ impl Mesh {
     }
 
     fn triangle_frame(&self, corners: [usize; 3]) -> Option<Frame> {
-        let [a, b, c] = corners.map(|corner| self.positions[corner]);
-        let [uv_a, uv_b, uv_c] = corners.map(|corner| self.uvs[corner]);
+        // Products of tiny edges and texture coordinates vanish in single precision.
+        let [a, b, c] = corners.map(|corner| self.positions[corner].as_dvec3());
+        let [uv_a, uv_b, uv_c] = corners.map(|corner| self.uvs[corner].as_dvec2());
         let (edge_1, edge_2) = (b - a, c - a);
         let (uv_1, uv_2) = (uv_b - uv_a, uv_c - uv_a);
         // Twice the signed area in the picture. With v downwards it is negative
@@ -80,7 +81,7 @@ impl Mesh {
             return None;
         }
         Some(Frame {
-            tangent: tangent.try_normalize()?,
+            tangent: tangent.try_normalize()?.as_vec3(),
             mirrored: area > 0.0,
         })
     }

@@ -45,32 +45,45 @@ pub fn checker(size: u32, squares: u32, colors: [Vec3; 2]) -> Texture {
 /// Paints a square picture with a function of the place, 0 to 1 to the right
 /// and down, that gives a linear colour.
 pub fn paint(name: &str, size: u32, color: impl Fn(Vec2) -> Vec3 + Sync) -> Texture {
+    let size = checked(size);
     let pixels = pixels(size, |at| color(at).extend(1.0));
-    texture(name, TextureFormat::Rgba8Srgb, size, &pixels)
+    texture(name, TextureFormat::Rgba8Srgb, size, size, &pixels)
 }
 
 /// Makes a normal map from a function that gives the height at a place, in
-/// units of the picture's side. Green is up the picture.
+/// units of the picture's side.
 pub fn normal_map(name: &str, size: u32, height: impl Fn(Vec2) -> f32 + Sync) -> Texture {
     let size = checked(size);
-    let heights = pixels(size, |at| Vec4::splat(height(at)));
-    let side = size as usize;
-    let at = |x: usize, y: usize| heights[y % side * side + x % side].x;
+    let heights = pixels(size, height);
+    normal_map_from_heights(name, size, size, &heights, size as f32)
+}
+
+/// Makes a normal map from heights, rows from the top, that are multiplied by
+/// `strength` to be in pixels. The picture repeats at its edges; green is up.
+pub(crate) fn normal_map_from_heights(
+    name: &str,
+    width: u32,
+    height: u32,
+    heights: &[f32],
+    strength: f32,
+) -> Texture {
+    let (columns, rows) = (width as usize, height as usize);
+    let at = |x: usize, y: usize| heights[y % rows * columns + x % columns];
     let mut normals = vec![Vec4::ZERO; heights.len()];
     normals
-        .par_chunks_mut(side)
+        .par_chunks_mut(columns)
         .enumerate()
         .for_each(|(y, row)| {
             for (x, normal) in row.iter_mut().enumerate() {
                 // Central differences, around the edges of the picture.
-                let to_right = at(x + 1, y) - at(x + side - 1, y);
-                let down = at(x, y + 1) - at(x, y + side - 1);
-                let slope = Vec2::new(to_right, -down) * (0.5 * side as f32);
+                let to_right = at(x + 1, y) - at(x + columns - 1, y);
+                let up = at(x, y + rows - 1) - at(x, y + 1);
+                let slope = Vec2::new(to_right, up) * (0.5 * strength);
                 let direction = Vec3::new(-slope.x, -slope.y, 1.0).normalize();
                 *normal = (direction * 0.5 + 0.5).extend(1.0);
             }
         });
-    texture(name, TextureFormat::Rgba8Linear, size, &normals)
+    texture(name, TextureFormat::Rgba8Linear, width, height, &normals)
 }
 
 fn checked(size: u32) -> u32 {
@@ -78,9 +91,9 @@ fn checked(size: u32) -> u32 {
 }
 
 /// Evaluates a function at the middle of each pixel, rows in parallel.
-fn pixels(size: u32, value: impl Fn(Vec2) -> Vec4 + Sync) -> Vec<Vec4> {
+fn pixels<T: Copy + Default + Send>(size: u32, value: impl Fn(Vec2) -> T + Sync) -> Vec<T> {
     let side = checked(size) as usize;
-    let mut pixels = vec![Vec4::ZERO; side * side];
+    let mut pixels = vec![T::default(); side * side];
     pixels
         .par_chunks_mut(side)
         .enumerate()
@@ -92,10 +105,9 @@ fn pixels(size: u32, value: impl Fn(Vec2) -> Vec4 + Sync) -> Vec<Vec4> {
     pixels
 }
 
-fn texture(name: &str, format: TextureFormat, size: u32, pixels: &[Vec4]) -> Texture {
-    let size = checked(size);
+fn texture(name: &str, format: TextureFormat, width: u32, height: u32, pixels: &[Vec4]) -> Texture {
     // The size is in range and the count right, so that this can't fail.
-    Texture::from_linear(name, size, size, format, pixels)
+    Texture::from_linear(name, width, height, format, pixels)
         .unwrap_or_else(|_| Texture::placeholder())
 }
 
