@@ -5,6 +5,7 @@ use std::time::Instant;
 use crate::compile::DrawPipeline;
 use crate::description::{Load, PassDesc};
 use crate::frame::Frame;
+use crate::inspect::Inspector;
 use crate::pipeline::{CompiledPass, PassPipelines, Pipeline};
 use crate::queries::Queries;
 use crate::scene::MeshPool;
@@ -28,6 +29,7 @@ pub fn record(
     recording: &Recording<'_>,
     encoder: &mut wgpu::CommandEncoder,
     queries: &Queries,
+    inspector: &mut Inspector,
     statistics: &mut Vec<PassStatistics>,
 ) {
     statistics.clear();
@@ -51,6 +53,7 @@ pub fn record(
         });
         cost.cpu_ms = started.elapsed().as_secs_f64() * 1e3;
         statistics.push(cost);
+        inspector.after_pass(index, targets, &recording.frame.data, encoder);
     }
 }
 

@@ -9,6 +9,7 @@ use crate::compile::Compiler;
 use crate::description::PassKind;
 use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
+use crate::inspect::Inspector;
 use crate::layout::SceneLayout;
 use crate::pipeline::Pipeline;
 use crate::queries::{Measured, Queries};
@@ -25,6 +26,7 @@ pub struct Renderer {
     scene: Scene,
     frame: Frame,
     queries: Queries,
+    inspector: Inspector,
     statistics: FrameStatistics,
     /// Counts the frames of this renderer, for the queries.
     serial: u32,
@@ -64,9 +66,11 @@ impl Renderer {
         let layout = SceneLayout::new(&gpu);
         let scene = Scene::new(&gpu, &layout);
         let queries = Queries::new(&gpu);
+        let inspector = Inspector::new(&gpu);
         Self {
             scene,
             queries,
+            inspector,
             layout,
             gpu,
             frame: Frame::default(),
@@ -168,6 +172,7 @@ impl Renderer {
             &recording,
             &mut encoder,
             &self.queries,
+            &mut self.inspector,
             &mut self.statistics.passes,
         );
         self.queries.resolve(&mut encoder);
@@ -183,6 +188,11 @@ impl Renderer {
         self.serial = self.serial.wrapping_add(1);
         self.index = self.index.wrapping_add(1);
         Ok(&self.statistics)
+    }
+
+    /// Shows a target as it is after a pass: see [`Inspector`].
+    pub fn inspector(&mut self) -> &mut Inspector {
+        &mut self.inspector
     }
 
     /// The number that the next frame will have in [`Measured::frame`].
