@@ -287,6 +287,17 @@ impl Gpu {
             .map_or(Ok(()), |error| Err(GpuError::Driver(error)))
     }
 
+    /// Whether passes can be timed on the device.
+    pub fn has_timestamps(&self) -> bool {
+        self.device.features().contains(Features::TIMESTAMP_QUERY)
+    }
+
+    /// Whether the device counts fragments.
+    pub fn has_pipeline_statistics(&self) -> bool {
+        let features = self.device.features();
+        features.contains(Features::PIPELINE_STATISTICS_QUERY)
+    }
+
     /// Waits until the device has done all submitted work.
     ///
     /// # Errors
