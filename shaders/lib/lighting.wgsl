@@ -35,16 +35,16 @@ fn cone_falloff(light: scene::Light, to_light: vec3f) -> f32 {
     return edge * edge;
 }
 
-fn evaluate_light(light: scene::Light, surface: surface::Surface, to_viewer: vec3f) -> vec3f {
+fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> vec3f {
     if light.kind == scene::LIGHT_AMBIENT {
         // Constant radiance L from everywhere: E = πL, and Lambert reflects ρ E / π.
-        return surface.base_color * light.intensity;
+        return point.base_color * light.intensity;
     }
 
     var to_light = -light.direction;
     var irradiance = light.intensity;
     if light.kind != scene::LIGHT_DIRECTIONAL {
-        let offset = light.position - surface.position;
+        let offset = light.position - point.position;
         let distance_squared = dot(offset, offset);
         if distance_squared >= light.range * light.range {
             return vec3f(0.0);
@@ -56,12 +56,12 @@ fn evaluate_light(light: scene::Light, surface: surface::Surface, to_viewer: vec
         }
     }
 
-    let n_dot_l = dot(surface.normal, to_light);
+    let n_dot_l = dot(point.normal, to_light);
     if n_dot_l <= 0.0 {
         return vec3f(0.0);
     }
     let half_vector = surface::safe_normalize(to_light + to_viewer);
-    let n_dot_h = saturate(dot(surface.normal, half_vector));
-    let specular = surface.specular * normalized_blinn_phong(n_dot_h, surface.power);
-    return (surface.base_color / PI + specular) * irradiance * n_dot_l;
+    let n_dot_h = saturate(dot(point.normal, half_vector));
+    let specular = point.specular * normalized_blinn_phong(n_dot_h, point.power);
+    return (point.base_color / PI + specular) * irradiance * n_dot_l;
 }

@@ -27,9 +27,9 @@ struct Instance {
     world_row_y: vec4f,
     world_row_z: vec4f,
     material: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
+    reserved_a: u32,
+    reserved_b: u32,
+    reserved_c: u32,
 }
 
 // One object that this frame draws.
@@ -59,9 +59,9 @@ struct Light {
     intensity: vec3f,                   // colour × intensity, linear Rec. 709
     angle_scale: f32,                   // 1 / (cos inner/2 - cos outer/2)
     angle_offset: f32,                  // -cos(outer/2) · angle_scale
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
+    reserved_a: u32,
+    reserved_b: u32,
+    reserved_c: u32,
 }
 
 // One light volume to draw: the affine matrix that carries the unit sphere or cone there.
@@ -70,9 +70,9 @@ struct LightVolume {
     row_y: vec4f,
     row_z: vec4f,
     light: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
+    reserved_a: u32,
+    reserved_b: u32,
+    reserved_c: u32,
 }
 
 const LIGHT_POINT: u32 = 0u;
@@ -92,12 +92,12 @@ const NO_TEXTURE: u32 = 0xffffffffu;
 @group(0) @binding(6) var<storage, read> light_volumes: array<LightVolume>;
 @group(0) @binding(7) var material_sampler: sampler;
 // Material textures, bucketed by size and format: a material holds bucket and layer.
-@group(0) @binding(8) var textures_0: texture_2d_array<f32>;
-@group(0) @binding(9) var textures_1: texture_2d_array<f32>;
-@group(0) @binding(10) var textures_2: texture_2d_array<f32>;
-@group(0) @binding(11) var textures_3: texture_2d_array<f32>;
-@group(0) @binding(12) var textures_4: texture_2d_array<f32>;
-@group(0) @binding(13) var textures_5: texture_2d_array<f32>;
+@group(0) @binding(8) var textures_a: texture_2d_array<f32>;
+@group(0) @binding(9) var textures_b: texture_2d_array<f32>;
+@group(0) @binding(10) var textures_c: texture_2d_array<f32>;
+@group(0) @binding(11) var textures_d: texture_2d_array<f32>;
+@group(0) @binding(12) var textures_e: texture_2d_array<f32>;
+@group(0) @binding(13) var textures_f: texture_2d_array<f32>;
 
 // Object to world space. The only place that computes it, so that equal depth tests hold.
 fn world_position(instance: Instance, position: vec3f) -> vec3f {
@@ -144,11 +144,11 @@ fn position_from_depth(pixel: vec2f, resolution: vec2f, depth: f32) -> vec3f {
 fn sample_texture(texture: u32, uv: vec2f, ddx: vec2f, ddy: vec2f) -> vec4f {
     let layer = texture & 0xffffu;
     switch texture >> 16u {
-        case 0u: { return textureSampleGrad(textures_0, material_sampler, uv, layer, ddx, ddy); }
-        case 1u: { return textureSampleGrad(textures_1, material_sampler, uv, layer, ddx, ddy); }
-        case 2u: { return textureSampleGrad(textures_2, material_sampler, uv, layer, ddx, ddy); }
-        case 3u: { return textureSampleGrad(textures_3, material_sampler, uv, layer, ddx, ddy); }
-        case 4u: { return textureSampleGrad(textures_4, material_sampler, uv, layer, ddx, ddy); }
-        default: { return textureSampleGrad(textures_5, material_sampler, uv, layer, ddx, ddy); }
+        case 0u: { return textureSampleGrad(textures_a, material_sampler, uv, layer, ddx, ddy); }
+        case 1u: { return textureSampleGrad(textures_b, material_sampler, uv, layer, ddx, ddy); }
+        case 2u: { return textureSampleGrad(textures_c, material_sampler, uv, layer, ddx, ddy); }
+        case 3u: { return textureSampleGrad(textures_d, material_sampler, uv, layer, ddx, ddy); }
+        case 4u: { return textureSampleGrad(textures_e, material_sampler, uv, layer, ddx, ddy); }
+        default: { return textureSampleGrad(textures_f, material_sampler, uv, layer, ddx, ddy); }
     }
 }

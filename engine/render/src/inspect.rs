@@ -77,7 +77,11 @@ impl Inspection {
         Some(Self {
             pass,
             target: target.to_owned(),
-            channels: if single { Channels::Red } else { Channels::Color },
+            channels: if single {
+                Channels::Red
+            } else {
+                Channels::Color
+            },
             map,
             low: 0.0,
             high,
@@ -221,7 +225,11 @@ impl Inspector {
             low: request.low,
             high: request.high,
             near: frame.near,
-            far: if frame.far.is_finite() { frame.far } else { 0.0 },
+            far: if frame.far.is_finite() {
+                frame.far
+            } else {
+                0.0
+            },
             channels: match request.channels {
                 Channels::Red => 0,
                 Channels::Green => 1,

@@ -203,6 +203,14 @@ impl ShaderComposer {
             | ComposerErrorInner::DefineInModule(at) => {
                 Problem::new(place(*at), error.inner.to_string()).with_source(source)
             }
+            ComposerErrorInner::InvalidIdentifier { original, at } => Problem::new(
+                place(start(at.to_range())),
+                format!("`{original}` can't be a name in a module"),
+            )
+            .with_source(source)
+            .with_hint(
+                "names in shaders/lib must not end in a digit or an underscore, nor be WGSL words",
+            ),
             other => Problem::new(Place::file(file), self.composer_text(&other.to_string())),
         }
     }

@@ -10,6 +10,7 @@ use lightbench_world::World;
 
 pub use buffer::RowBuffer;
 pub use meshes::{MeshPool, MeshRange, Shape};
+pub use rows::light_data;
 
 use crate::frame::Frame;
 use crate::gpu::Gpu;

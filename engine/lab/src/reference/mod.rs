@@ -1,0 +1,11 @@
+//! The shaders' formulas once more, on the CPU and in double precision where it matters.
+//!
+//! Each function is the twin of one in `shaders/lib/`; tests hold both to the same published
+//! numbers and to each other.
+
+pub mod brdf;
+pub mod color;
+pub mod lighting;
+pub mod normals;
+
+pub use lighting::{Surface, evaluate_light, outgoing_radiance};
