@@ -1,0 +1,414 @@
+//! All metrics of two pictures at once.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::LabError;
+use crate::metrics::{
+    self, ErrorLocation, FlipOptions, LinearErrors, MapStatistics, Metric, Plane, SrgbErrors,
+};
+use crate::picture::{HdrImage, LdrImage, Picture};
+
+/// What is asked of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiffOptions {
+    /// Viewing conditions of FLIP.
+    pub flip: FlipOptions,
+    /// FLIP above which a pixel counts as differing.
+    pub bound: f64,
+}
+
+impl Default for DiffOptions {
+    fn default() -> Self {
+        Self {
+            flip: FlipOptions::default(),
+            bound: metrics::DEFAULT_BOUND,
+        }
+    }
+}
+
+/// The difference of two 8-bit sRGB pictures in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LdrDifference {
+    /// Viewing distance in pixels per degree.
+    pub pixels_per_degree: f64,
+    /// FLIP, pooled.
+    pub flip: MapStatistics,
+    /// Pointwise errors.
+    pub srgb: SrgbErrors,
+    /// Structural similarity, 1 for equal pictures.
+    pub ssim: f64,
+    /// Where the FLIP error lies.
+    pub location: ErrorLocation,
+}
+
+impl LdrDifference {
+    /// Whether R, G and B of all pixels are equal.
+    pub fn is_identical(&self) -> bool {
+        self.srgb.max_steps == 0
+    }
+}
+
+/// The difference of two linear pictures in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HdrDifference {
+    /// Viewing distance in pixels per degree.
+    pub pixels_per_degree: f64,
+    /// HDR-FLIP, pooled.
+    pub flip: MapStatistics,
+    /// Darkest and brightest exposure of HDR-FLIP in stops.
+    pub exposure_range: [f64; 2],
+    /// Number of exposures of HDR-FLIP.
+    pub exposures: u32,
+    /// Pointwise errors.
+    pub linear: LinearErrors,
+}
+
+/// Numbers and map of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diff<T> {
+    /// The numbers.
+    pub difference: T,
+    /// FLIP of each pixel, 0 to 1; [`crate::heatmap`] paints it.
+    pub map: Plane,
+}
+
+/// Compares two 8-bit sRGB pictures.
+///
+/// # Errors
+/// If the sizes differ or an option is out of range.
+pub fn diff_ldr(
+    reference: &LdrImage,
+    test: &LdrImage,
+    options: DiffOptions,
+) -> Result<Diff<LdrDifference>, LabError> {
+    check_bound(options.bound)?;
+    let map = metrics::ldr_flip(reference, test, options.flip)?;
+    let difference = LdrDifference {
+        pixels_per_degree: options.flip.pixels_per_degree,
+        flip: MapStatistics::of(&map, options.bound),
+        srgb: metrics::srgb_errors(reference, test)?,
+        ssim: metrics::ssim(reference, test)?,
+        location: ErrorLocation::of(&map, reference),
+    };
+    Ok(Diff { difference, map })
+}
+
+/// Compares two linear pictures.
+///
+/// # Errors
+/// If the sizes differ or an option is out of range.
+pub fn diff_hdr(
+    reference: &HdrImage,
+    test: &HdrImage,
+    options: DiffOptions,
+) -> Result<Diff<HdrDifference>, LabError> {
+    check_bound(options.bound)?;
+    let flip = metrics::hdr_flip(reference, test, options.flip)?;
+    let difference = HdrDifference {
+        pixels_per_degree: options.flip.pixels_per_degree,
+        flip: MapStatistics::of(&flip.map, options.bound),
+        exposure_range: [flip.start_exposure, flip.stop_exposure],
+        exposures: flip.exposures,
+        linear: metrics::linear_errors(reference, test)?,
+    };
+    Ok(Diff {
+        difference,
+        map: flip.map,
+    })
+}
+
+fn check_bound(bound: f64) -> Result<(), LabError> {
+    if (0.0..=1.0).contains(&bound) {
+        return Ok(());
+    }
+    Err(LabError::Parameter {
+        name: "the bound of FLIP",
+        value: bound,
+        range: "from 0 to 1",
+    })
+}
+
+/// The difference of two picture files.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileDiff {
+    /// Both files hold 8-bit sRGB.
+    Ldr(Diff<LdrDifference>),
+    /// Both files hold linear values.
+    Hdr(Diff<HdrDifference>),
+}
+
+/// Compares two picture files of one kind.
+///
+/// # Errors
+/// If a file can't be read, one is 8-bit and the other linear, or the sizes differ.
+pub fn diff_files(
+    reference: &Path,
+    test: &Path,
+    options: DiffOptions,
+) -> Result<FileDiff, LabError> {
+    match (Picture::open(reference)?, Picture::open(test)?) {
+        (Picture::Ldr(a), Picture::Ldr(b)) => diff_ldr(&a, &b, options).map(FileDiff::Ldr),
+        (Picture::Hdr(a), Picture::Hdr(b)) => diff_hdr(&a, &b, options).map(FileDiff::Hdr),
+        (a, b) => Err(LabError::RangeMismatch {
+            reference: reference.to_path_buf(),
+            reference_range: a.range(),
+            test: test.to_path_buf(),
+            test_range: b.range(),
+        }),
+    }
+}
+
+/// One printed number: what it is, its value, and the metric that defines it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// Name of the number.
+    pub name: String,
+    /// The number as text, with its unit.
+    pub value: String,
+    /// The definition behind it.
+    pub metric: Metric,
+}
+
+impl FileDiff {
+    /// FLIP of each pixel.
+    pub fn map(&self) -> &Plane {
+        match self {
+            Self::Ldr(diff) => &diff.map,
+            Self::Hdr(diff) => &diff.map,
+        }
+    }
+
+    /// The numbers as JSON.
+    pub fn to_json(&self) -> serde_json::Value {
+        let (space, numbers) = match self {
+            Self::Ldr(diff) => ("8-bit sRGB", serde_json::to_value(&diff.difference)),
+            Self::Hdr(diff) => ("linear HDR", serde_json::to_value(&diff.difference)),
+        };
+        serde_json::json!({ "space": space, "difference": numbers.unwrap_or_default() })
+    }
+
+    /// The numbers for people, in the order in which a report prints them.
+    pub fn lines(&self) -> Vec<Line> {
+        match self {
+            Self::Ldr(diff) => ldr_lines(&diff.difference),
+            Self::Hdr(diff) => hdr_lines(&diff.difference),
+        }
+    }
+}
+
+/// The lines of a comparison of 8-bit pictures.
+pub(crate) fn ldr_lines(d: &LdrDifference) -> Vec<Line> {
+    let mut lines = flip_lines(&d.flip, Metric::LdrFlip);
+    lines.extend([
+        line("RMSE (sRGB)", number(d.srgb.rmse), Metric::SrgbRmse),
+        line("MSE (sRGB)", number(d.srgb.mse), Metric::SrgbMse),
+        line("PSNR (sRGB)", decibel(d.srgb.psnr_db), Metric::SrgbPsnr),
+        line(
+            "Largest step of a channel",
+            format!("{} of 255", d.srgb.max_steps),
+            Metric::SrgbMse,
+        ),
+        line(
+            "Pixels that differ at all",
+            percent(d.srgb.share_different),
+            Metric::SrgbMse,
+        ),
+        line("SSIM", number(d.ssim), Metric::Ssim),
+        black_line(
+            "Black pixels (sRGB)",
+            d.srgb.reference_black,
+            d.srgb.test_black,
+        ),
+    ]);
+    lines
+}
+
+/// The lines of a comparison of linear pictures.
+pub(crate) fn hdr_lines(d: &HdrDifference) -> Vec<Line> {
+    let mut lines = flip_lines(&d.flip, Metric::HdrFlip);
+    let [start, stop] = d.exposure_range;
+    let exposures = format!("{} from {start:+.2} to {stop:+.2} stops", d.exposures);
+    lines.push(line("Exposures", exposures, Metric::HdrFlip));
+    lines.extend(linear_lines(&d.linear));
+    lines
+}
+
+/// The lines of pointwise linear errors.
+pub(crate) fn linear_lines(e: &LinearErrors) -> Vec<Line> {
+    vec![
+        line("RMSE (linear)", number(e.rmse), Metric::LinearRmse),
+        line("PSNR (linear)", decibel(e.psnr_db), Metric::LinearPsnr),
+        line("relMSE (linear)", number(e.rel_mse), Metric::RelMse),
+        line("SMAPE (linear)", number(e.smape), Metric::Smape),
+        line("Energy ratio", number(e.energy_ratio), Metric::EnergyRatio),
+        black_line("Black pixels (linear)", e.reference_black, e.test_black),
+        line(
+            "Invalid pixels",
+            percent(e.share_invalid),
+            Metric::ShareInvalid,
+        ),
+    ]
+}
+
+fn flip_lines(flip: &MapStatistics, metric: Metric) -> Vec<Line> {
+    let name = metric.name();
+    let share = format!("Pixels with {name} above {}", number(flip.bound));
+    vec![
+        line(&format!("{name} mean"), number(flip.mean), metric),
+        line(
+            &format!("{name} 99th percentile"),
+            number(flip.p99),
+            Metric::Percentile,
+        ),
+        line(&format!("{name} maximum"), number(flip.max), metric),
+        line(&share, percent(flip.share_over_bound), Metric::Histogram),
+        line(
+            &format!("{name} weighted median"),
+            number(flip.weighted_quartiles[1]),
+            Metric::WeightedPercentile,
+        ),
+    ]
+}
+
+fn black_line(name: &str, reference: f64, test: f64) -> Line {
+    let value = format!(
+        "{} in the reference, {} here",
+        percent(reference),
+        percent(test)
+    );
+    line(name, value, Metric::ShareBlack)
+}
+
+fn line(name: &str, value: String, metric: Metric) -> Line {
+    Line {
+        name: name.into(),
+        value,
+        metric,
+    }
+}
+
+/// Four significant digits; "n/a" where there is no number.
+pub(crate) fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "n/a".into();
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    if (-5..6).contains(&magnitude) {
+        let decimals = (3 - magnitude).max(0) as usize;
+        let text = format!("{value:.decimals$}");
+        if text.contains('.') {
+            return text.trim_end_matches('0').trim_end_matches('.').into();
+        }
+        return text;
+    }
+    format!("{value:.3e}")
+}
+
+fn decibel(value: f64) -> String {
+    if value == f64::INFINITY {
+        "∞ dB (equal)".into()
+    } else {
+        format!("{} dB", number(value))
+    }
+}
+
+/// A share as a percentage. A share that is not zero is never printed as 0.
+pub(crate) fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    match value {
+        v if !v.is_finite() => "n/a".into(),
+        0.0 => "0 %".into(),
+        v if v < 0.01 => "below 0.01 %".into(),
+        v if v < 1.0 => format!("{v:.2} %"),
+        v if (99.95..100.0).contains(&v) => "over 99.9 %".into(),
+        100.0 => "100 %".into(),
+        v => format!("{v:.1} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn numbers_keep_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (0.012_345, "0.01235"),
+            (1234.56, "1235"),
+            (0.5, "0.5"),
+            (12_345.6, "12346"),
+            (1.5e-9, "1.500e-9"),
+            (f64::NAN, "n/a"),
+            (-2.25, "-2.25"),
+            (1e10, "1.000e10"),
+            (9.99996, "10"),
+            (1200.0, "1200"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+        assert_eq!(percent(1e-9), "below 0.01 %");
+        assert_eq!(
+            (percent(1.0), percent(0.999_999)),
+            ("100 %".into(), "over 99.9 %".into())
+        );
+    }
+
+    #[test]
+    fn files_of_two_kinds_are_refused_and_equal_ones_have_no_difference() {
+        let folder = tempfile::tempdir().unwrap();
+        let (png, exr) = (folder.path().join("a.png"), folder.path().join("a.exr"));
+        let ldr = LdrImage::from_fn(20, 10, |x, y| [x as u8 * 9, y as u8 * 9, 40, 255]);
+        std::fs::write(&png, ldr.to_png().unwrap()).unwrap();
+        let values: Vec<f32> = (0..20 * 10 * 3).map(|i| i as f32 * 0.01).collect();
+        image::Rgb32FImage::from_raw(20, 10, values)
+            .unwrap()
+            .save(&exr)
+            .unwrap();
+        let options = DiffOptions::default();
+        let text = diff_files(&png, &exr, options).unwrap_err().to_string();
+        assert!(
+            text.contains("a.png") && text.contains("linear HDR"),
+            "{text}"
+        );
+        for path in [&png, &exr] {
+            let diff = diff_files(path, path, options).unwrap();
+            assert!(diff.map().values.iter().all(|v| *v == 0.0));
+            assert!(diff.lines().iter().any(|l| l.value == "∞ dB (equal)"));
+        }
+        let FileDiff::Ldr(diff) = diff_files(&png, &png, options).unwrap() else {
+            panic!()
+        };
+        assert!(diff.difference.is_identical());
+    }
+
+    #[test]
+    fn a_changed_pixel_shows_in_every_number() {
+        let a = LdrImage::from_fn(32, 32, |_, _| [90, 90, 90, 255]);
+        let mut b = a.clone();
+        b.pixels[500] = [255, 0, 0, 255];
+        let d = diff_ldr(&a, &b, DiffOptions::default()).unwrap().difference;
+        assert!(!d.is_identical() && d.flip.max > 0.1 && d.ssim < 1.0);
+        assert_eq!(d.srgb.share_different, 1.0 / 1024.0);
+        let text = serde_json::to_string(&d).unwrap();
+        assert_eq!(serde_json::from_str::<LdrDifference>(&text).unwrap(), d);
+        assert!(
+            diff_ldr(
+                &a,
+                &b,
+                DiffOptions {
+                    bound: 2.0,
+                    ..Default::default()
+                }
+            )
+            .is_err()
+        );
+    }
+}

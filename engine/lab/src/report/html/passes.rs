@@ -1,0 +1,186 @@
+//! Times and memory, pass by pass and target by target.
+
+use super::answer::bytes_a_pixel;
+use super::table::{facts, numbers, table, words};
+use super::writer::Writer;
+use super::{charts, or_dash, software_note};
+use crate::report::analysis::Analysis;
+use crate::report::format::{bytes, count, significant};
+use crate::report::model::{Comparison, PassResult, PipelineResult};
+use crate::report::summary::clock_name;
+use crate::statistics::Summary;
+
+/// Charts of frames and passes, then the table of each pipeline's passes.
+pub fn times_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
+    w.element(
+        "section",
+        &[("id", "times"), ("aria-labelledby", "times-h")],
+        |w| {
+            w.leaf("h2", &[("id", "times-h")], "Where the time goes");
+            if c.adapter.software {
+                let text = "All times in this section are those of a software driver.";
+                w.element("p", &[("class", "caution")], |w| {
+                    w.leaf("strong", &[], "Note. ");
+                    w.text(text);
+                });
+            }
+            if !analysis.order.is_empty() {
+                charts::frames(w, c, analysis);
+            }
+            charts::passes(w, c);
+            for pipeline in &c.pipelines {
+                pass_table(w, c, pipeline);
+            }
+        },
+    );
+}
+
+fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
+    w.leaf("h3", &[], &format!("Passes of {}", p.label()));
+    if !p.parameters.is_empty() {
+        let settings: Vec<String> = p
+            .parameters
+            .iter()
+            .map(|p| format!("{} = {}", p.name, p.value))
+            .collect();
+        w.leaf(
+            "p",
+            &[("class", "about")],
+            &format!("Parameters: {}.", settings.join(", ")),
+        );
+    }
+    let columns = [
+        words("Pass"),
+        words("Kind"),
+        numbers("GPU median"),
+        numbers("GPU p95"),
+        numbers("CPU median"),
+        numbers("CPU p95"),
+        numbers("Draws"),
+        numbers("Instances"),
+        numbers("Triangles"),
+        numbers("Fragments"),
+        numbers("Dispatches"),
+        numbers("Read"),
+        numbers("Written"),
+    ];
+    let mut rows: Vec<Vec<String>> = p.passes.iter().map(pass_row).collect();
+    rows.push(total_row(p));
+    let caption = format!(
+        "Passes of {}. Times in ms a frame ({} frames{}); counts and bytes of one frame; bytes are \
+         modelled from the declared formats and sizes. The last row is measured over the whole \
+         frame, not summed.",
+        p.label(),
+        c.frames,
+        software_note(c)
+    );
+    table(w, &caption, &columns, &rows);
+    let missing: Vec<(&str, String)> = p
+        .passes
+        .iter()
+        .filter_map(|pass| Some((pass.name.as_str(), pass.why_not.clone()?)))
+        .chain(
+            p.gpu_why_not
+                .clone()
+                .map(|why| ("GPU time of the frame", why)),
+        )
+        .collect();
+    if !missing.is_empty() {
+        w.leaf("p", &[("class", "note")], "Not measured, and why:");
+        facts(w, &missing);
+    }
+}
+
+fn pass_row(pass: &PassResult) -> Vec<String> {
+    let mut row = vec![pass.name.clone(), pass.kind.clone()];
+    row.extend(time_cells(pass.gpu_ms.as_deref()));
+    row.extend(time_cells(Some(&pass.cpu_ms)));
+    row.extend([pass.draws, pass.instances, pass.triangles].map(count));
+    row.push(or_dash(pass.fragments.map(count)));
+    row.push(count(pass.dispatches));
+    row.extend([pass.bytes_read, pass.bytes_written].map(bytes));
+    row
+}
+
+fn total_row(p: &PipelineResult) -> Vec<String> {
+    let sum = |f: fn(&PassResult) -> u64| p.passes.iter().map(f).sum::<u64>();
+    let fragments: Option<u64> = p.passes.iter().map(|pass| pass.fragments).sum();
+    let mut row = vec!["Whole frame".to_owned(), String::new()];
+    row.extend(time_cells(p.frame_gpu_ms.as_deref()));
+    row.extend(time_cells(Some(&p.frame_cpu_ms)));
+    row.extend([sum(|p| p.draws), sum(|p| p.instances), sum(|p| p.triangles)].map(count));
+    row.push(or_dash(fragments.map(count)));
+    row.push(count(sum(|p| p.dispatches)));
+    row.extend([sum(|p| p.bytes_read), sum(|p| p.bytes_written)].map(bytes));
+    row
+}
+
+fn time_cells(samples: Option<&[f64]>) -> [String; 2] {
+    let summary = samples.and_then(Summary::of);
+    let cell = |value: fn(Summary) -> f64| or_dash(summary.map(|s| significant(value(s))));
+    [cell(|s| s.median), cell(|s| s.p95)]
+}
+
+/// Target memory of each pipeline.
+pub fn memory_section(w: &mut Writer, c: &Comparison) {
+    if c.pipelines.iter().all(|p| p.targets.is_empty()) {
+        return;
+    }
+    w.element("section", &[("id", "memory"), ("aria-labelledby", "memory-h")], |w| {
+        w.leaf("h2", &[("id", "memory-h")], "What the targets take");
+        let text = "Bytes follow from the declared formats, sizes and samples; a driver may pad or \
+                    compress. Targets that are never alive at the same time may share memory, \
+                    which the total counts once.";
+        w.leaf("p", &[("class", "note")], text);
+        let pixels = f64::from(c.size[0]) * f64::from(c.size[1]);
+        let columns = [
+            words("Target"),
+            words("Format"),
+            numbers("Size"),
+            numbers("Samples"),
+            numbers("Memory, modelled"),
+            numbers("Bytes a pixel"),
+        ];
+        for p in c.pipelines.iter().filter(|p| !p.targets.is_empty()) {
+            let mut rows: Vec<Vec<String>> = p
+                .targets
+                .iter()
+                .map(|t| {
+                    vec![
+                        t.name.clone(),
+                        t.format.clone(),
+                        format!("{} × {}", t.size[0], t.size[1]),
+                        t.samples.to_string(),
+                        bytes(t.bytes),
+                        significant(t.bytes as f64 / pixels),
+                    ]
+                })
+                .collect();
+            let mut total = vec!["Together".to_owned()];
+            total.extend([String::new(), String::new(), String::new()]);
+            total.extend([bytes(p.target_bytes_total), significant(bytes_a_pixel(p, c))]);
+            rows.push(total);
+            table(w, &format!("Targets of {}.", p.label()), &columns, &rows);
+        }
+        let reads: Vec<Vec<String>> = c.pipelines.iter().map(|p| traffic(p, pixels)).collect();
+        let columns = [
+            words("Pipeline"),
+            numbers("Read a frame"),
+            numbers("Written a frame"),
+            numbers("Bytes a pixel and frame"),
+        ];
+        table(w, "Traffic, modelled from the declared formats and sizes.", &columns, &reads);
+    });
+}
+
+fn traffic(p: &PipelineResult, pixels: f64) -> Vec<String> {
+    let read: u64 = p.passes.iter().map(|pass| pass.bytes_read).sum();
+    let written: u64 = p.passes.iter().map(|pass| pass.bytes_written).sum();
+    let each = significant((read + written) as f64 / pixels);
+    vec![p.label().to_owned(), bytes(read), bytes(written), each]
+}
+
+/// The clock in the words of a chart's caption.
+pub fn clock_caption(c: &Comparison, analysis: &Analysis) -> String {
+    format!("{}, ms a frame", clock_name(c, analysis.clock))
+}

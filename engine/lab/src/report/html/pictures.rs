@@ -1,0 +1,299 @@
+//! Each pipeline's picture, where it differs, and the metrics.
+
+use super::table::{numbers, table, words};
+use super::writer::{Writer, data_uri};
+use crate::LabError;
+use crate::colormap::ColorMap;
+use crate::diff::{ldr_lines, linear_lines, number};
+use crate::report::model::{Comparison, PipelineResult};
+
+/// Pictures of a pipeline as `data:` addresses.
+pub struct Encoded {
+    picture: Option<String>,
+    heat_map: Option<String>,
+}
+
+/// Encodes all pictures.
+pub fn encode(c: &Comparison) -> Result<Vec<Encoded>, LabError> {
+    let uri = |image: &Option<crate::LdrImage>| -> Result<Option<String>, LabError> {
+        image
+            .as_ref()
+            .map(|i| i.to_png().map(|png| data_uri(&png)))
+            .transpose()
+    };
+    c.pipelines
+        .iter()
+        .map(|p| {
+            Ok(Encoded {
+                picture: uri(&p.picture)?,
+                heat_map: uri(&p.heat_map)?,
+            })
+        })
+        .collect()
+}
+
+/// Viewer, pictures and metrics.
+pub fn section(w: &mut Writer, c: &Comparison, images: &[Encoded]) {
+    w.element(
+        "section",
+        &[("id", "pictures"), ("aria-labelledby", "pictures-h")],
+        |w| {
+            w.leaf("h2", &[("id", "pictures-h")], "Where the pictures differ");
+            if images.iter().filter(|i| i.picture.is_some()).count() > 1 {
+                viewer(w);
+            }
+            for (number, (pipeline, image)) in c.pipelines.iter().zip(images).enumerate() {
+                pair(w, c, pipeline, image, number);
+            }
+            if images.iter().any(|i| i.heat_map.is_some()) {
+                legend(w);
+            }
+            metrics_table(w, c);
+        },
+    );
+}
+
+/// Controls that the script fills in and shows; without the script the pictures below suffice.
+fn viewer(w: &mut Writer) {
+    let attributes = [
+        ("class", "viewer"),
+        ("id", "viewer"),
+        ("hidden", ""),
+        ("aria-label", "Picture viewer"),
+    ];
+    w.element("div", &attributes, |w| {
+        w.element("div", &[("class", "controls")], |w| {
+            w.element("label", &[], |w| {
+                w.text("Left (A) ");
+                w.element("select", &[("id", "view-a")], |_| {});
+            });
+            w.element("label", &[], |w| {
+                w.text("Right (B) ");
+                w.element("select", &[("id", "view-b")], |_| {});
+            });
+            w.element("label", &[("class", "grow")], |w| {
+                w.text("Divider ");
+                w.void(
+                    "input",
+                    &[
+                        ("type", "range"),
+                        ("id", "view-x"),
+                        ("min", "0"),
+                        ("max", "100"),
+                        ("value", "50"),
+                    ],
+                );
+            });
+            let flip = [
+                ("type", "button"),
+                ("id", "view-flip"),
+                ("aria-pressed", "false"),
+            ];
+            w.leaf("button", &flip, "Flip A/B (F)");
+            let zoom = [
+                ("type", "button"),
+                ("id", "view-zoom"),
+                ("aria-pressed", "false"),
+            ];
+            w.leaf("button", &zoom, "Pixel for pixel (Z)");
+        });
+        w.element(
+            "div",
+            &[("class", "stage"), ("id", "view-stage"), ("tabindex", "0")],
+            |w| {
+                w.element("div", &[("class", "layers"), ("id", "view-layers")], |_| {});
+            },
+        );
+        w.leaf(
+            "p",
+            &[
+                ("class", "status"),
+                ("id", "view-status"),
+                ("aria-live", "polite"),
+            ],
+            "",
+        );
+    });
+}
+
+fn pair(w: &mut Writer, c: &Comparison, p: &PipelineResult, image: &Encoded, index: usize) {
+    let is_reference = p.name == c.reference;
+    let [width, height] = c.size.map(|s| s.to_string());
+    w.element("article", &[("class", "pair")], |w| {
+        let heading = if is_reference {
+            format!("{} (reference)", p.label())
+        } else {
+            p.label().to_owned()
+        };
+        w.leaf("h3", &[], &heading);
+        if !p.description.is_empty() {
+            w.leaf("p", &[("class", "about")], &p.description);
+        }
+        w.element("div", &[("class", "figures")], |w| {
+            if let Some(uri) = &image.picture {
+                w.element("figure", &[], |w| {
+                    let id = format!("picture-{index}");
+                    let alt = format!("Picture of {}", p.label());
+                    w.void(
+                        "img",
+                        &[
+                            ("id", &id),
+                            ("class", "shot"),
+                            ("data-label", p.label()),
+                            ("src", uri),
+                            ("alt", &alt),
+                            ("width", &width),
+                            ("height", &height),
+                        ],
+                    );
+                    w.leaf(
+                        "figcaption",
+                        &[],
+                        "Picture, 8-bit sRGB after the tone curve",
+                    );
+                });
+            } else {
+                w.leaf("p", &[], "No picture was kept.");
+            }
+            match (&image.heat_map, &p.difference) {
+                (Some(uri), Some(d)) => w.element("figure", &[], |w| {
+                    let alt = format!(
+                        "Heat map of the FLIP difference of {} from the reference",
+                        p.label()
+                    );
+                    w.void(
+                        "img",
+                        &[
+                            ("class", "shot"),
+                            ("data-label", &format!("{} – FLIP", p.label())),
+                            ("src", uri),
+                            ("alt", &alt),
+                            ("width", &width),
+                            ("height", &height),
+                        ],
+                    );
+                    let caption = if d.is_identical() {
+                        "FLIP difference: none, every pixel is equal".to_owned()
+                    } else {
+                        format!(
+                            "FLIP difference: mean {}, 99th percentile {}, maximum {}",
+                            number(d.flip.mean),
+                            number(d.flip.p99),
+                            number(d.flip.max)
+                        )
+                    };
+                    w.leaf("figcaption", &[], &caption);
+                }),
+                _ if is_reference => {
+                    w.leaf(
+                        "p",
+                        &[("class", "aside")],
+                        "All other pictures are compared with this one.",
+                    );
+                }
+                _ => w.leaf("p", &[("class", "aside")], "This picture was not compared."),
+            }
+        });
+    });
+}
+
+/// The colours of the heat maps with their values.
+fn legend(w: &mut Writer) {
+    let label = "Colours of the heat maps: black is a FLIP of 0, pale yellow a FLIP of 1";
+    let svg = [
+        ("class", "legend"),
+        ("viewBox", "0 0 400 44"),
+        ("role", "img"),
+        ("aria-label", label),
+    ];
+    w.element("svg", &svg, |w| {
+        w.element("defs", &[], |w| {
+            w.element("linearGradient", &[("id", "magma")], |w| {
+                for i in 0..=16 {
+                    let at = i as f32 / 16.0;
+                    let [r, g, b] = ColorMap::Magma.color(at);
+                    let colour = format!("rgb({r},{g},{b})");
+                    w.element(
+                        "stop",
+                        &[("offset", &at.to_string()), ("stop-color", &colour)],
+                        |_| {},
+                    );
+                }
+            });
+        });
+        w.element(
+            "rect",
+            &[
+                ("x", "10"),
+                ("y", "2"),
+                ("width", "380"),
+                ("height", "14"),
+                ("fill", "url(#magma)"),
+                ("class", "frame"),
+            ],
+            |_| {},
+        );
+        for i in 0..=4 {
+            let x = (10 + 95 * i).to_string();
+            w.element(
+                "path",
+                &[("class", "axis"), ("d", &format!("M{x} 16v4"))],
+                |_| {},
+            );
+            let text = ["0", "0.25", "0.5", "0.75", "1"][i];
+            w.leaf(
+                "text",
+                &[("x", &x), ("y", "33"), ("text-anchor", "middle")],
+                text,
+            );
+        }
+    });
+    w.leaf("p", &[("class", "note")], "FLIP of each pixel, painted with the map magma: 0 is no visible difference, 1 the largest.");
+}
+
+fn metrics_table(w: &mut Writer, c: &Comparison) {
+    let compared: Vec<&PipelineResult> = c
+        .pipelines
+        .iter()
+        .filter(|p| p.difference.is_some())
+        .collect();
+    let Some(first) = compared.first() else {
+        return;
+    };
+    let lines = |p: &PipelineResult| -> Vec<(String, String)> {
+        let mut lines: Vec<_> = p.difference.as_ref().map(ldr_lines).unwrap_or_default();
+        lines.extend(
+            p.linear_difference
+                .as_ref()
+                .map(linear_lines)
+                .unwrap_or_default(),
+        );
+        lines.into_iter().map(|l| (l.name, l.value)).collect()
+    };
+    let longest = compared
+        .iter()
+        .copied()
+        .max_by_key(|p| lines(p).len())
+        .unwrap_or(first);
+    let mut columns = vec![words("Against the reference")];
+    columns.extend(compared.iter().map(|p| numbers(p.label())));
+    let rows: Vec<Vec<String>> = lines(longest)
+        .into_iter()
+        .enumerate()
+        .map(|(row, (name, _))| {
+            let mut cells = vec![name];
+            cells.extend(compared.iter().map(|p| {
+                lines(p)
+                    .get(row)
+                    .map_or_else(|| "–".into(), |(_, value)| value.clone())
+            }));
+            cells
+        })
+        .collect();
+    table(
+        w,
+        "Picture metrics. Formulas, spaces and constants are at the end.",
+        &columns,
+        &rows,
+    );
+}

@@ -1,0 +1,130 @@
+//! How to run it again, on what it ran, and how to read the numbers.
+
+use super::table::{facts, table, words};
+use super::writer::Writer;
+use crate::metrics::Metric;
+use crate::report::analysis::{Analysis, MARGIN};
+use crate::report::format::bytes;
+use crate::report::model::Comparison;
+use crate::statistics::CONFIDENCE;
+
+/// Command, versions, machine, settings and inputs.
+pub fn run_again_section(w: &mut Writer, c: &Comparison) {
+    w.element("section", &[("id", "again"), ("aria-labelledby", "again-h")], |w| {
+        w.leaf("h2", &[("id", "again-h")], "How to run it again");
+        let version = &c.program_version;
+        w.leaf("p", &[], &format!("With Lightbench {version} and the inputs listed below:"));
+        w.element("div", &[("class", "command")], |w| {
+            w.element("pre", &[("tabindex", "0"), ("aria-label", "Command line")], |w| {
+                w.leaf("code", &[("id", "command")], &c.command_line);
+            });
+            w.leaf("button", &[("type", "button"), ("id", "copy"), ("hidden", "")], "Copy");
+        });
+        let text = "Pictures and counts come out the same on the same driver. Times depend on the \
+                    machine and its load.";
+        w.leaf("p", &[("class", "note")], text);
+        w.leaf("h3", &[], "Machine");
+        let a = &c.adapter;
+        let kind = if a.software { format!("{}, a software driver", a.kind) } else { a.kind.clone() };
+        facts(w, &[
+            ("Processor", format!("{}, {} logical processors", c.machine.cpu, c.machine.cores)),
+            ("Memory", bytes(c.machine.memory_bytes)),
+            ("System", c.machine.os.clone()),
+            ("Adapter", a.name.clone()),
+            ("Kind", kind),
+            ("Driver", format!("{} {}", a.driver, a.driver_info).trim().to_owned()),
+            ("Graphics interface", a.backend.clone()),
+        ]);
+        w.leaf("h3", &[], "Settings");
+        let mut settings = vec![
+            ("Scene", c.scene.clone()),
+            ("Picture", format!("{} × {} pixels", c.size[0], c.size[1])),
+            ("Frames", format!("{} measured after {} of warm-up", c.frames, c.warmup_frames)),
+            ("Reference", c.reference.clone()),
+        ];
+        settings.extend(c.parameters.iter().map(|p| (p.name.as_str(), p.value.clone())));
+        let seeds: Vec<String> = c.seeds.iter().map(|s| format!("{} {}", s.name, s.value)).collect();
+        if !seeds.is_empty() {
+            settings.push(("Seeds", seeds.join(", ")));
+        }
+        for p in c.pipelines.iter().filter(|p| !p.features_needed.is_empty()) {
+            settings.push(("Needs", format!("{}: {}", p.label(), p.features_needed.join(", "))));
+        }
+        facts(w, &settings);
+        if !c.inputs.is_empty() {
+            let columns = [words("File"), words("Hash"), words("Value")];
+            let rows: Vec<Vec<String>> = c
+                .inputs
+                .iter()
+                .map(|i| vec![i.path.clone(), i.algorithm.clone(), i.hash.clone()])
+                .collect();
+            table(w, "Inputs and the hashes of their content.", &columns, &rows);
+        }
+    });
+}
+
+/// What the words and numbers mean exactly.
+pub fn reading_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
+    w.element("section", &[("id", "reading"), ("aria-labelledby", "reading-h")], |w| {
+        w.leaf("h2", &[("id", "reading-h")], "How to read this");
+        let level = format!("{:.2}", 100.0 * analysis.ratio_level);
+        let confidence = 100.0 * CONFIDENCE;
+        let margin = 100.0 * MARGIN;
+        let upper = 1.0 + MARGIN;
+        let lower = 1.0 / upper;
+        for text in [
+            format!(
+                "Times are medians over the measured frames. The interval of a median holds the \
+                 true median with at least {confidence:.0} % confidence (order statistics, no \
+                 assumption about the distribution). p95 is the 95th percentile. No frame is left \
+                 out as an outlier."
+            ),
+            format!(
+                "Speed is the quotient of two medians: 2 means twice as fast. Its interval is a \
+                 circular block bootstrap over runs of consecutive frames with a fixed seed, each \
+                 at {level} %, so that all pairs of pipelines hold together at {confidence:.0} % \
+                 (Bonferroni)."
+            ),
+            format!(
+                "A pipeline is called faster or slower only if that interval lies wholly outside \
+                 {lower:.3} to {upper:.2} and the intervals of the two medians do not overlap. The \
+                 same within {margin:.0} % means that the interval lies wholly inside. All else is \
+                 undecided."
+            ),
+            "The intervals cover the variation from frame to frame within this run. They do not \
+             cover what changes from one start of the program to the next."
+                .to_owned(),
+            "GPU time is measured with timestamps around the frame and around each pass; the passes \
+             need not add up to the frame. CPU time is the time for recording and submitting. \
+             Bytes are modelled, not measured."
+                .to_owned(),
+        ] {
+            w.leaf("p", &[], &text);
+        }
+        if c.pipelines.iter().any(|p| p.difference.is_some()) {
+            w.leaf("h3", &[], "Picture metrics");
+            w.leaf("p", &[("class", "note")], "r is a value of the reference, t of the other picture; alpha is not compared.");
+            let linear = c.pipelines.iter().any(|p| p.linear_difference.is_some());
+            let definitions: Vec<(&str, String)> = Metric::ALL
+                .into_iter()
+                .filter(|m| is_printed(*m, linear))
+                .map(|m| (m.name(), m.definition()))
+                .collect();
+            facts(w, &definitions);
+        }
+    });
+}
+
+/// Whether the report prints a number that this metric defines.
+fn is_printed(metric: Metric, linear: bool) -> bool {
+    match metric {
+        Metric::HdrFlip | Metric::LinearMse => false,
+        Metric::LinearRmse
+        | Metric::LinearPsnr
+        | Metric::RelMse
+        | Metric::Smape
+        | Metric::EnergyRatio
+        | Metric::ShareInvalid => linear,
+        _ => true,
+    }
+}

@@ -1,0 +1,21 @@
+//! Comparison reports: data, words, files.
+//!
+//! [`Comparison`] is what was measured. [`analysis`] decides what the numbers allow to be said,
+//! [`summary`] says it, [`write_report`] writes it all: one HTML file that needs nothing else, and
+//! JSON and CSV for programs.
+
+pub mod analysis;
+pub mod csv;
+pub mod format;
+pub mod html;
+mod model;
+#[cfg(test)]
+pub(crate) mod sample;
+pub mod summary;
+mod write;
+
+pub use model::{
+    Adapter, Comparison, Input, Machine, Parameter, PassResult, PipelineResult, SCHEMA, Seed,
+    TargetResult,
+};
+pub use write::{ReportFiles, read_json, to_json, write_report};

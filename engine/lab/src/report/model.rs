@@ -1,0 +1,253 @@
+//! A comparison of pipelines as data: what the JSON file holds.
+
+use serde::{Deserialize, Serialize};
+
+use crate::colormap::ColorMap;
+use crate::diff::{DiffOptions, LdrDifference, diff_ldr};
+use crate::heatmap::heat_map;
+use crate::metrics::{LinearErrors, linear_errors};
+use crate::{HdrImage, LabError, LdrImage};
+
+/// Version of the data model. It grows when a field changes its meaning or goes away; a new field
+/// that older readers may ignore does not change it.
+pub const SCHEMA: u32 = 1;
+
+/// Several pipelines measured on one scene, machine and adapter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Heading of the report.
+    pub title: String,
+    /// Name of the scene.
+    pub scene: String,
+    /// The command that made the report, ready to be typed again.
+    pub command_line: String,
+    /// When the measurement ended, RFC 3339.
+    pub created: String,
+    /// Version of Lightbench.
+    pub program_version: String,
+    /// The computer.
+    pub machine: Machine,
+    /// The graphics adapter.
+    pub adapter: Adapter,
+    /// Width and height of the pictures in pixels.
+    pub size: [u32; 2],
+    /// Frames measured of each pipeline.
+    pub frames: u32,
+    /// Frames drawn before, and not measured.
+    pub warmup_frames: u32,
+    /// Name of the pipeline that the others are compared with.
+    pub reference: String,
+    /// Parameters of the whole comparison, such as the scene's.
+    pub parameters: Vec<Parameter>,
+    /// Seeds of all random numbers.
+    pub seeds: Vec<Seed>,
+    /// Files that went in, with their hashes.
+    pub inputs: Vec<Input>,
+    /// The results, in the order in which the pipelines were asked for.
+    pub pipelines: Vec<PipelineResult>,
+}
+
+/// The computer that measured.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Name of the processor.
+    pub cpu: String,
+    /// Logical processors that the program could use.
+    pub cores: u32,
+    /// Main memory in bytes.
+    pub memory_bytes: u64,
+    /// Operating system with its version.
+    pub os: String,
+}
+
+/// The graphics adapter that drew.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Adapter {
+    /// Name of the device.
+    pub name: String,
+    /// Name of the driver.
+    pub driver: String,
+    /// Version of the driver.
+    pub driver_info: String,
+    /// Graphics interface, such as Vulkan.
+    pub backend: String,
+    /// Kind of device, such as "discrete GPU" or "CPU".
+    pub kind: String,
+    /// Whether a processor imitates a graphics card. Its times are labelled as such everywhere.
+    pub software: bool,
+}
+
+/// A named setting and its value as text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Parameter {
+    /// Name of the setting.
+    pub name: String,
+    /// The value as text.
+    pub value: String,
+}
+
+/// A named seed of random numbers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Seed {
+    /// What draws from it.
+    pub name: String,
+    /// The seed.
+    pub value: u64,
+}
+
+/// A file that went into the measurement.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Input {
+    /// Path, relative to the project.
+    pub path: String,
+    /// Name of the hash function.
+    pub algorithm: String,
+    /// Hash of the content as text.
+    pub hash: String,
+}
+
+/// What one pipeline cost and how its picture differs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PipelineResult {
+    /// Name of the pipeline, unique in the comparison.
+    pub name: String,
+    /// Name for people.
+    pub title: String,
+    /// What the pipeline does, one or two sentences.
+    pub description: String,
+    /// Values of its parameters.
+    pub parameters: Vec<Parameter>,
+    /// Features and limits of the adapter that it needs beyond the default ones.
+    pub features_needed: Vec<String>,
+    /// CPU time of each measured frame in milliseconds, in order.
+    pub frame_cpu_ms: Vec<f64>,
+    /// GPU time of each measured frame in milliseconds, in order; absent where the adapter has no
+    /// timestamps.
+    pub frame_gpu_ms: Option<Vec<f64>>,
+    /// Why GPU times are absent.
+    pub gpu_why_not: Option<String>,
+    /// The passes in the order in which they run.
+    pub passes: Vec<PassResult>,
+    /// The targets that it declares.
+    pub targets: Vec<TargetResult>,
+    /// Bytes of memory of all targets, after targets that share a texture are counted once.
+    pub target_bytes_total: u64,
+    /// Its picture against that of the reference, in 8-bit sRGB; absent for the reference.
+    pub difference: Option<LdrDifference>,
+    /// The same before the tone curve, in linear light.
+    pub linear_difference: Option<LinearErrors>,
+    /// File of the picture beside the JSON file.
+    pub picture_file: Option<String>,
+    /// File of the FLIP heat map beside the JSON file.
+    pub heat_map_file: Option<String>,
+    /// The picture; not part of the JSON.
+    #[serde(skip)]
+    pub picture: Option<LdrImage>,
+    /// FLIP of each pixel, painted with magma from 0 to 1; not part of the JSON.
+    #[serde(skip)]
+    pub heat_map: Option<LdrImage>,
+}
+
+/// What one pass cost. Counts are those of one frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PassResult {
+    /// Name of the pass, unique in its pipeline.
+    pub name: String,
+    /// Kind of the pass, such as `geometry` or `compute`.
+    pub kind: String,
+    /// GPU time in each measured frame in milliseconds; absent where it can't be measured.
+    pub gpu_ms: Option<Vec<f64>>,
+    /// CPU time for recording the pass in each measured frame in milliseconds.
+    pub cpu_ms: Vec<f64>,
+    /// Draw calls.
+    pub draws: u64,
+    /// Instances drawn.
+    pub instances: u64,
+    /// Triangles drawn.
+    pub triangles: u64,
+    /// Fragment shader invocations, where the adapter counts them.
+    pub fragments: Option<u64>,
+    /// Compute dispatches.
+    pub dispatches: u64,
+    /// Bytes read, modelled from the declared formats and sizes.
+    pub bytes_read: u64,
+    /// Bytes written, modelled from the declared formats and sizes.
+    pub bytes_written: u64,
+    /// Why a value is absent.
+    pub why_not: Option<String>,
+}
+
+/// A target that a pipeline draws to.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TargetResult {
+    /// Name of the target.
+    pub name: String,
+    /// Format of a pixel.
+    pub format: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel.
+    pub samples: u32,
+    /// Bytes of memory, all layers and mips.
+    pub bytes: u64,
+}
+
+impl Comparison {
+    /// The result that the others are compared with, if it was measured.
+    pub fn reference_result(&self) -> Option<&PipelineResult> {
+        self.pipelines.iter().find(|p| p.name == self.reference)
+    }
+
+    /// Fills in the differences and heat maps of all pipelines but the reference from their
+    /// pictures. `linear` gives the picture of a pipeline before the tone curve, by name, where
+    /// there is one.
+    ///
+    /// # Errors
+    /// If two pictures differ in size or an option is out of range. Without a picture of the
+    /// reference nothing is filled in.
+    pub fn compare_pictures<'a>(
+        &mut self,
+        linear: impl Fn(&str) -> Option<&'a HdrImage>,
+        options: DiffOptions,
+    ) -> Result<(), LabError> {
+        let Some(reference) = self.reference_result().and_then(|r| r.picture.clone()) else {
+            return Ok(());
+        };
+        let linear_reference = linear(&self.reference);
+        for pipeline in self
+            .pipelines
+            .iter_mut()
+            .filter(|p| p.name != self.reference)
+        {
+            if let Some(picture) = &pipeline.picture {
+                let diff = diff_ldr(&reference, picture, options)?;
+                pipeline.heat_map = Some(heat_map(&diff.map, ColorMap::Magma));
+                pipeline.difference = Some(diff.difference);
+            }
+            if let (Some(reference), Some(test)) = (linear_reference, linear(&pipeline.name)) {
+                pipeline.linear_difference = Some(linear_errors(reference, test)?);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl PipelineResult {
+    /// The finite GPU times of the frames, if any were measured.
+    pub fn gpu_samples(&self) -> Option<&[f64]> {
+        self.frame_gpu_ms
+            .as_deref()
+            .filter(|s| s.iter().any(|v| v.is_finite()))
+    }
+
+    /// The name for people, or the plain name where there is none.
+    pub fn label(&self) -> &str {
+        if self.title.is_empty() {
+            &self.name
+        } else {
+            &self.title
+        }
+    }
+}
