@@ -114,9 +114,10 @@ impl Compiler {
     ) -> Result<LoadedShader, Problem> {
         let composer = match &mut self.composer {
             Some(composer) => composer,
-            None => self
-                .composer
-                .insert(ShaderComposer::new(files, capabilities(&self.gpu))?),
+            None => self.composer.insert(ShaderComposer::new(
+                files,
+                naga::valid::Capabilities::default(),
+            )?),
         };
         let defines: Vec<&str> = variant
             .iter()
@@ -539,10 +540,4 @@ fn blend(blend: Blend) -> Option<wgpu::BlendState> {
         }),
         Blend::Over => Some(wgpu::BlendState::ALPHA_BLENDING),
     }
-}
-
-/// What naga may accept: what the device can do.
-fn capabilities(_gpu: &Gpu) -> naga::valid::Capabilities {
-    // No shader here needs more than WebGPU's core.
-    naga::valid::Capabilities::empty()
 }

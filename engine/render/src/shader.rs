@@ -33,7 +33,8 @@ pub struct ShaderComposer {
 }
 
 impl ShaderComposer {
-    /// Reads every module in `shaders/lib`. `capabilities` are the device's.
+    /// Reads every module in `shaders/lib`. `capabilities` say which optional parts of WGSL are
+    /// allowed.
     ///
     /// # Errors
     /// The first mistake in a module, with its place.
@@ -175,7 +176,8 @@ impl ShaderComposer {
                     });
                 let mut problem = Problem::new(place(start(span)), self.composer_text(&message))
                     .with_source(source);
-                problem.hint = Some(self.composer_text(&note)).filter(|note| !note.is_empty());
+                problem.hint = Some(self.composer_text(&note))
+                    .filter(|note| !note.is_empty() && !note.starts_with("naga::"));
                 problem
             }
             ComposerErrorInner::ImportNotFound(name, at) => {

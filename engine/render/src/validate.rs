@@ -342,6 +342,7 @@ impl<S: FormatSupport> Checker<'_, S> {
                         .iter()
                         .find(|other| writes(other, name) && other.name != pass.name);
                     let hint = match later {
+                        _ if verb == "keeps" => "add .clear after it".to_owned(),
                         Some(later) => {
                             format!("`{}` writes it, but comes later: move it up", later.name)
                         }
