@@ -22,10 +22,12 @@ pub mod files;
 pub mod images;
 mod material;
 mod mesh;
+mod mips;
 pub mod obj;
 pub mod procedural;
 pub mod procedural_texture;
 mod progress;
+mod rows;
 mod tangents;
 mod texture;
 
@@ -35,3 +37,8 @@ pub use material::Material;
 pub use mesh::{Mesh, MeshError};
 pub use progress::{Cancelled, Progress, Task, TaskLost};
 pub use texture::{MAX_TEXTURE_SIZE, Texture, TextureError, TextureFormat, TextureId};
+
+/// A value brought into a range; what is no number becomes its lower end.
+fn clamped(value: f32, low: f32, high: f32) -> f32 {
+    if value > low { value.min(high) } else { low }
+}

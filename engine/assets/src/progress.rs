@@ -67,7 +67,7 @@ impl Progress {
     /// The work was asked to stop; return from it.
     pub fn report(&self, fraction: f32) -> Result<(), Cancelled> {
         // Positive floats are in the order of their bits.
-        let bits = fraction.max(0.0).min(1.0).to_bits();
+        let bits = crate::clamped(fraction, 0.0, 1.0).to_bits();
         self.shared.fraction.fetch_max(bits, Ordering::Relaxed);
         if self.is_cancelled() {
             Err(Cancelled)

@@ -2,10 +2,10 @@
 
 use glam::Vec4;
 use half::f16;
-use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::color::{decode_srgb8, encode_srgb8, encode_unorm8};
+use crate::mips::{encode_level, mip_chain};
 
 /// The largest width or height, in pixels: what every WebGPU device offers.
 pub const MAX_TEXTURE_SIZE: u32 = 8192;
@@ -42,7 +42,7 @@ impl TextureFormat {
     }
 
     /// The linear value of one pixel's bytes.
-    fn decode(self, bytes: &[u8]) -> Vec4 {
+    pub(crate) fn decode(self, bytes: &[u8]) -> Vec4 {
         match self {
             Self::Rgba8Srgb => Vec4::new(
                 decode_srgb8(bytes[0]),
@@ -61,7 +61,7 @@ impl TextureFormat {
 
     /// Writes one linear pixel, clamped to what the format holds. A value that
     /// is no number becomes 0.
-    fn encode(self, pixel: Vec4, bytes: &mut [u8]) {
+    pub(crate) fn encode(self, pixel: Vec4, bytes: &mut [u8]) {
         match self {
             Self::Rgba8Srgb => bytes.copy_from_slice(&[
                 encode_srgb8(pixel.x),
@@ -193,7 +193,7 @@ impl Texture {
             width,
             height,
             format,
-            encode_level(pixels, width as usize, format),
+            encode_level(width as usize, format, expected, |at| pixels[at]),
         )
     }
 
@@ -263,105 +263,6 @@ fn checked_pixel_count(name: &str, width: u32, height: u32) -> Result<usize, Tex
             height,
         })
     }
-}
-
-/// All levels from the first. Between levels the pixels stay floats, so that
-/// rounding does not add up.
-fn mip_chain(width: usize, height: usize, format: TextureFormat, first: Vec<u8>) -> Vec<Vec<u8>> {
-    let size = format.bytes_per_pixel();
-    let weigh = format == TextureFormat::Rgba8Srgb;
-    let mut mips = Vec::with_capacity(width.max(height).ilog2() as usize + 1);
-    let (mut width, mut height) = (width, height);
-    let mut level: Vec<Vec4> = Vec::new();
-    mips.push(first);
-    while width > 1 || height > 1 {
-        level = if mips.len() == 1 {
-            let bytes = &mips[0];
-            halve(width, height, |at| {
-                let pixel = format.decode(&bytes[at * size..(at + 1) * size]);
-                if weigh { weighed(pixel) } else { pixel }
-            })
-        } else {
-            halve(width, height, |at| level[at])
-        };
-        (width, height) = ((width / 2).max(1), (height / 2).max(1));
-        mips.push(if weigh {
-            let plain: Vec<Vec4> = level.par_iter().map(|&pixel| unweighed(pixel)).collect();
-            encode_level(&plain, width, format)
-        } else {
-            encode_level(&level, width, format)
-        });
-    }
-    mips
-}
-
-/// A little weight for transparent pixels, which alone decide the colour where
-/// all are transparent.
-const LEAST_WEIGHT: f32 = 1.0 / 4096.0;
-
-fn weighed(pixel: Vec4) -> Vec4 {
-    (pixel * (pixel.w + LEAST_WEIGHT)).with_w(pixel.w)
-}
-
-fn unweighed(pixel: Vec4) -> Vec4 {
-    (pixel / (pixel.w + LEAST_WEIGHT)).with_w(pixel.w)
-}
-
-fn encode_level(pixels: &[Vec4], width: usize, format: TextureFormat) -> Vec<u8> {
-    let size = format.bytes_per_pixel();
-    let mut bytes = vec![0; pixels.len() * size];
-    bytes
-        .par_chunks_mut(width * size)
-        .zip(pixels.par_chunks(width))
-        .for_each(|(bytes, pixels)| {
-            for (bytes, &pixel) in bytes.chunks_exact_mut(size).zip(pixels) {
-                format.encode(pixel, bytes);
-            }
-        });
-    bytes
-}
-
-/// The next smaller level, by a box filter over exactly the area that each new
-/// pixel covers.
-fn halve(width: usize, height: usize, pixel: impl Fn(usize) -> Vec4 + Sync) -> Vec<Vec4> {
-    let (new_width, new_height) = ((width / 2).max(1), (height / 2).max(1));
-    let mut halved = vec![Vec4::ZERO; new_width * new_height];
-    halved
-        .par_chunks_mut(new_width)
-        .enumerate()
-        .for_each(|(new_y, row)| {
-            let (y, weights_y) = taps(new_y, height);
-            for (new_x, out) in row.iter_mut().enumerate() {
-                let (x, weights_x) = taps(new_x, width);
-                for (dy, weight_y) in weights_y.into_iter().enumerate() {
-                    for (dx, weight_x) in weights_x.into_iter().enumerate() {
-                        if weight_x * weight_y > 0.0 {
-                            *out += pixel((y + dy) * width + x + dx) * (weight_x * weight_y);
-                        }
-                    }
-                }
-            }
-        });
-    halved
-}
-
-/// First source pixel and the weights of up to three, for one new pixel along
-/// one axis. An odd size 2n + 1 makes n pixels, each covering 2 + 1/n old ones
-/// (Guthe and Heckbert, "Non-power-of-two mipmapping", NVIDIA, 2005), so that
-/// the mean stays the same at every size.
-fn taps(new: usize, size: usize) -> (usize, [f32; 3]) {
-    if size == 1 {
-        return (0, [1.0, 0.0, 0.0]);
-    }
-    if size.is_multiple_of(2) {
-        return (2 * new, [0.5, 0.5, 0.0]);
-    }
-    let half = (size / 2) as f32;
-    let (all, new_f) = (size as f32, new as f32);
-    (
-        2 * new,
-        [(half - new_f) / all, half / all, (new_f + 1.0) / all],
-    )
 }
 
 #[cfg(test)]

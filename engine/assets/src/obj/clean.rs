@@ -280,10 +280,9 @@ impl Reader {
                 continue;
             };
             for corner in &self.corners[first..first + count] {
-                for kind in 0..3 {
-                    if corner[kind] > self.counts[kind] {
-                        let given = i64::from(corner[kind]);
-                        return Err((line, out_of_range(kind, given, self.counts[kind])));
+                for (kind, (&index, &count)) in corner.iter().zip(&self.counts).enumerate() {
+                    if index > count {
+                        return Err((line, out_of_range(kind, i64::from(index), count)));
                     }
                 }
             }

@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec2, Vec3, Vec4};
 
 use super::flat::{add_cells, cuboid};
 use super::{Profile, count, length, revolve};
-use crate::Mesh;
+use crate::{Mesh, clamped};
 
 /// A column on the ground y = 0, after the Tuscan order: a square plinth and a
 /// round base, a shaft that swells (entasis), and a round capital under a
@@ -52,7 +52,7 @@ impl Column {
         let module = length(self.radius);
         let height = length(self.height).max(3.0 * module);
         let segments = count(self.segments, 8);
-        let taper = self.taper.max(0.1).min(1.0);
+        let taper = clamped(self.taper, 0.1, 1.0);
         let (foot, neck) = (module, height - module);
         let round = |profile: &Profile| {
             let u = (TAU * module).round().max(1.0);

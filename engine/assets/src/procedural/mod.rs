@@ -37,8 +37,7 @@ fn count(count: u32, least: u32) -> u32 {
 
 /// A length of 0 to 1,000,000 m.
 fn length(length: f32) -> f32 {
-    // `max` gives the other operand for what is no number.
-    length.max(0.0).min(1e6)
+    crate::clamped(length, 0.0, 1e6)
 }
 
 #[cfg(test)]

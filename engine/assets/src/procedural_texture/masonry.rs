@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::{Noise, Surface, normal_map, paint, smooth};
+use crate::clamped;
 
 /// A brick wall in running bond: each course is shifted by half a brick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +81,7 @@ impl Brick {
     pub fn paint(&self) -> Surface {
         let columns = self.columns.clamp(1, 1024);
         let courses = self.courses.clamp(1, 1024).next_multiple_of(2);
-        let half_joint = 0.5 * self.joint.max(0.0).min(0.9) / courses as f32;
+        let half_joint = 0.5 * clamped(self.joint, 0.0, 0.9) / courses as f32;
         let rough = Noise::new(self.seed);
         let shade = Noise::new(self.seed.wrapping_add(101));
         let grain = |at: Vec2| rough.fractal(at, courses * 2, 4);
@@ -141,7 +142,7 @@ impl Tiles {
     #[must_use]
     pub fn paint(&self) -> Surface {
         let count = self.count.clamp(1, 1024).next_multiple_of(2);
-        let half_joint = 0.5 * self.joint.max(0.0).min(0.9) / count as f32;
+        let half_joint = 0.5 * clamped(self.joint, 0.0, 0.9) / count as f32;
         let shade = Noise::new(self.seed);
         let clouds = Noise::new(self.seed.wrapping_add(101));
         let base_color = paint("tiles", self.size, |at| {

@@ -14,8 +14,8 @@ mod noise;
 mod stone;
 
 use glam::{Vec2, Vec3, Vec4};
-use rayon::prelude::*;
 
+use crate::rows::for_each_row;
 use crate::{MAX_TEXTURE_SIZE, Texture, TextureFormat};
 
 pub use cloth::Weave;
@@ -70,19 +70,16 @@ pub(crate) fn normal_map_from_heights(
     let (columns, rows) = (width as usize, height as usize);
     let at = |x: usize, y: usize| heights[y % rows * columns + x % columns];
     let mut normals = vec![Vec4::ZERO; heights.len()];
-    normals
-        .par_chunks_mut(columns)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, normal) in row.iter_mut().enumerate() {
-                // Central differences, around the edges of the picture.
-                let to_right = at(x + 1, y) - at(x + columns - 1, y);
-                let up = at(x, y + rows - 1) - at(x, y + 1);
-                let slope = Vec2::new(to_right, up) * (0.5 * strength);
-                let direction = Vec3::new(-slope.x, -slope.y, 1.0).normalize();
-                *normal = (direction * 0.5 + 0.5).extend(1.0);
-            }
-        });
+    for_each_row(&mut normals, columns, |y, row| {
+        for (x, normal) in row.iter_mut().enumerate() {
+            // Central differences, around the edges of the picture.
+            let to_right = at(x + 1, y) - at(x + columns - 1, y);
+            let up = at(x, y + rows - 1) - at(x, y + 1);
+            let slope = Vec2::new(to_right, up) * (0.5 * strength);
+            let direction = Vec3::new(-slope.x, -slope.y, 1.0).normalize();
+            *normal = (direction * 0.5 + 0.5).extend(1.0);
+        }
+    });
     texture(name, TextureFormat::Rgba8Linear, width, height, &normals)
 }
 
@@ -94,14 +91,11 @@ fn checked(size: u32) -> u32 {
 fn pixels<T: Copy + Default + Send>(size: u32, value: impl Fn(Vec2) -> T + Sync) -> Vec<T> {
     let side = checked(size) as usize;
     let mut pixels = vec![T::default(); side * side];
-    pixels
-        .par_chunks_mut(side)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                *pixel = value((Vec2::new(x as f32, y as f32) + 0.5) / side as f32);
-            }
-        });
+    for_each_row(&mut pixels, side, |y, row| {
+        for (x, pixel) in row.iter_mut().enumerate() {
+            *pixel = value((Vec2::new(x as f32, y as f32) + 0.5) / side as f32);
+        }
+    });
     pixels
 }
 
