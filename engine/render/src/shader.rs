@@ -111,6 +111,7 @@ impl ShaderComposer {
             return Err(Problem::new(Place::file(path), "the shader is empty")
                 .with_hint("an editor may be half-way through saving it; save it again"));
         }
+        self.check_imports(path, &text)?;
         let shader_defs = defines
             .iter()
             .map(|define| ((*define).to_owned(), ShaderDefValue::Bool(true)))
@@ -129,6 +130,42 @@ impl ShaderComposer {
             }),
             Err(error) => Err(self.explain(&error, path, &text)),
         }
+    }
+
+    /// The composer looks for a module only where something of it is used; a misspelt import of an
+    /// unused one is a mistake all the same.
+    fn check_imports(&self, path: &str, text: &str) -> Result<(), Problem> {
+        for (number, line) in text.lines().enumerate() {
+            let Some(rest) = line.trim_start().strip_prefix("#import") else {
+                continue;
+            };
+            let name = rest.trim().split([' ', '{', ';']).next().unwrap_or("");
+            let name = name.trim_end_matches(':').trim_matches('"');
+            // `lightbench::scene::frame` imports an item of `lightbench::scene`.
+            let known = |module: &String| {
+                name.strip_prefix(module.as_str())
+                    .is_some_and(|item| item.is_empty() || item.starts_with("::"))
+            };
+            if !self.module_files.keys().any(known) {
+                let column = line.find(name).unwrap_or(0) as u32 + 1;
+                return Err(self.unknown_module(
+                    name,
+                    Place::new(path, number as u32 + 1, column),
+                    text,
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn unknown_module(&self, name: &str, at: Place, text: &str) -> Problem {
+        let mut names: Vec<&str> = self.module_files.keys().map(String::as_str).collect();
+        names.sort_unstable();
+        let hint = suggestion(name, names.iter().copied())
+            .unwrap_or_else(|| format!("the modules are: {}", names.join(", ")));
+        Problem::new(at, format!("there is no module `{name}`"))
+            .with_source(text)
+            .with_hint(hint)
     }
 
     /// Says where and what a composer's error is.
@@ -181,16 +218,7 @@ impl ShaderComposer {
                 problem
             }
             ComposerErrorInner::ImportNotFound(name, at) => {
-                let mut problem = Problem::new(place(*at), format!("there is no module `{name}`"))
-                    .with_source(source);
-                problem.hint = suggestion(name, self.module_files.keys().map(String::as_str))
-                    .or_else(|| {
-                        let mut names: Vec<&str> =
-                            self.module_files.keys().map(String::as_str).collect();
-                        names.sort_unstable();
-                        Some(format!("the modules are: {}", names.join(", ")))
-                    });
-                problem
+                self.unknown_module(name, place(*at), source)
             }
             ComposerErrorInner::ImportParseError(message, at) => {
                 Problem::new(place(*at), format!("this import can't be read: {message}"))

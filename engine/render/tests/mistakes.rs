@@ -222,9 +222,10 @@ fn every_mistake_in_a_shader_is_named_with_line_and_column() {
             "there is no sampler `smooth_sampler`",
         ),
         (
-            "var hdr: texture_2d<f32>",
-            "var hdr: texture_3d<f32>",
-            "`hdr` is a texture that is not 2D",
+            "@fragment",
+            "@group(1) @binding(5) var volume: texture_3d<f32>;
+@fragment",
+            "`volume` is a texture that is not 2D",
         ),
     ];
     let path = "shaders/mine.wgsl";
