@@ -28,6 +28,13 @@ pub fn times_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
                 charts::frames(w, c, analysis);
             }
             charts::passes(w, c);
+            let text = format!(
+                "In the tables, times are over {} frames, and counts and bytes are those of one \
+                 frame. Bytes are modelled from the declared formats and sizes. The times in the \
+                 last row are measured over the whole frame, not summed.",
+                c.frames
+            );
+            w.leaf("p", &[("class", "note")], &text);
             for pipeline in &c.pipelines {
                 pass_table(w, c, pipeline);
             }
@@ -66,14 +73,7 @@ fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
     ];
     let mut rows: Vec<Vec<String>> = p.passes.iter().map(pass_row).collect();
     rows.push(total_row(p));
-    let caption = format!(
-        "Passes of {}. Times in ms a frame ({} frames{}); counts and bytes of one frame; bytes are \
-         modelled from the declared formats and sizes. The last row is measured over the whole \
-         frame, not summed.",
-        p.label(),
-        c.frames,
-        software_note(c)
-    );
+    let caption = format!("Passes of {}, ms a frame{}.", p.label(), software_note(c));
     table(w, &caption, &columns, &rows);
     let missing: Vec<(&str, String)> = p
         .passes

@@ -90,12 +90,11 @@ fn viewer(w: &mut Writer) {
                 ("aria-pressed", "false"),
             ];
             w.leaf("button", &flip, "Flip A/B (F)");
-            let zoom = [
-                ("type", "button"),
-                ("id", "view-zoom"),
-                ("aria-pressed", "false"),
-            ];
-            w.leaf("button", &zoom, "Pixel for pixel (Z)");
+            w.leaf(
+                "button",
+                &[("type", "button"), ("id", "view-zoom")],
+                "Zoom to fit (Z)",
+            );
         });
         w.element(
             "div",

@@ -51,26 +51,35 @@
     flip.setAttribute("aria-pressed", String(flipped > 0));
     slider.disabled = flipped > 0;
     status.textContent = flipped
-      ? `Shown: ${(flipped === 1 ? a : b).dataset.label}. Flip again for the other; move the mouse over the picture or press S for the divider.`
+      ? `Shown: ${(flipped === 1 ? a : b).dataset.label}. Flip again for the other; click the picture or press S for the divider.`
       : `Left of the divider: ${a.dataset.label}. Right of it: ${b.dataset.label}.`;
   };
   const toggle = () => { flipped = flipped === 1 ? 2 : 1; draw(); };
   const split = () => { flipped = 0; draw(); };
+  // Fit to the page, then one and four screen pixels a pixel of the picture.
+  const scales = [0, 1, 4];
+  let scale = 0;
   const magnify = () => {
-    const exact = layers.classList.toggle("exact");
-    zoom.setAttribute("aria-pressed", String(exact));
+    scale = (scale + 1) % scales.length;
+    layers.classList.toggle("exact", scale > 0);
+    layers.style.width = scale > 0 ? `${above.naturalWidth * scales[scale]}px` : "";
+    zoom.textContent = scale > 0 ? `Zoom ${scales[scale]}:1 (Z)` : "Zoom to fit (Z)";
   };
   for (const control of [left, right, slider]) control.addEventListener("input", draw);
   flip.addEventListener("click", toggle);
   zoom.addEventListener("click", magnify);
-  stage.addEventListener("pointermove", (event) => {
-    if (event.pointerType === "touch" && !event.isPrimary) return;
+  const follow = (event) => {
+    if (!event.isPrimary) return;
     const box = layers.getBoundingClientRect();
     slider.value = (100 * (event.clientX - box.left)) / box.width;
-    flipped = 0;
-    draw();
+    split();
+  };
+  stage.addEventListener("pointermove", (event) => {
+    if (!flipped) follow(event);
   });
-  document.addEventListener("keydown", (event) => {
+  stage.addEventListener("pointerdown", follow);
+  // Letters act only while the viewer has the focus.
+  viewer.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
     const key = event.key.toLowerCase();
     if (key === "f") toggle();
