@@ -8,6 +8,7 @@
 //! - [`files`] is the one door to the disk: shipped data inside the program,
 //!   covered by the files of a student's project.
 //! - [`obj`] and [`images`] read what other programs made.
+//! - [`watch`] tells when files change, and [`Task`] works on a thread of its own.
 //! - [`procedural`] and [`procedural_texture`] make geometry and pictures from
 //!   parameters.
 //!
@@ -30,6 +31,7 @@ mod progress;
 mod rows;
 mod tangents;
 mod texture;
+pub mod watch;
 
 pub use assets::{Assets, Entry, UnknownAsset};
 pub use lightbench_world::{MaterialId, MeshBounds, MeshId};

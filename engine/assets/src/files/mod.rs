@@ -211,10 +211,10 @@ impl Files {
     /// No project, a path that is not allowed, a file that is in no layer, a
     /// folder that can't be written.
     pub fn copy_to_project(&self, path: &str) -> Result<PathBuf, FileError> {
-        let target = self.place_in_project(path)?;
         if let Origin::Project(on_disk) = self.origin(path)? {
             return Ok(on_disk);
         }
+        let target = self.place_in_project(path)?;
         match atomic::write_new(&target, &self.read(path)?) {
             Err(FileError::Exists { .. }) => Ok(target),
             other => other.map(|()| target),
@@ -231,6 +231,12 @@ impl Files {
         let target = self.place_in_project(path)?;
         write_atomic(&target, bytes)?;
         Ok(target)
+    }
+
+    /// The folders of granted files, each with what its paths begin with.
+    pub(crate) fn granted_folders(&self) -> impl Iterator<Item = (String, &Path)> {
+        let grants = self.grants.iter().enumerate();
+        grants.map(|(index, folder)| (format!("{GRANT_PREFIX}{index}/"), folder.as_path()))
     }
 
     fn shipped_bytes(&self, path: &str) -> Option<&'static [u8]> {
@@ -316,12 +322,14 @@ fn is_absent(error: &std::io::Error) -> bool {
 /// [`MAX_FILE_BYTES`].
 pub fn read_path(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
     let path = path.as_ref();
-    if path.is_dir() {
-        return Err(FileError::IsAFolder {
-            path: path.to_owned(),
-        });
+    let path_owned = || path.to_owned();
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(FileError::IsAFolder { path: path_owned() }),
+        // A pipe or a device would block the reader for ever.
+        Ok(found) if !found.is_file() => Err(FileError::NotAFile { path: path_owned() }),
+        Ok(_) => read_limited(path),
+        Err(error) => Err(FileError::io(path, error)),
     }
-    read_limited(path)
 }
 
 fn read_limited(path: &Path) -> Result<Vec<u8>, FileError> {
@@ -370,3 +378,6 @@ pub fn decode_text(path: &str, bytes: Vec<u8>) -> Result<String, FileError> {
         Ok(text)
     }
 }
+
+#[cfg(test)]
+mod tests;
