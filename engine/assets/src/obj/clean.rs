@@ -51,6 +51,8 @@ struct Reader {
     items: Vec<Item>,
     libraries: Vec<(String, usize)>,
     materials: Vec<(String, usize)>,
+    /// The material that the next face brings into use.
+    chosen: Option<(String, usize)>,
 }
 
 /// Checks a file and brings it into plain form.
@@ -140,14 +142,7 @@ impl Reader {
             {
                 self.libraries.push((rest.to_owned(), number));
             }
-            "usemtl" => {
-                let known = self.materials.iter().position(|(known, _)| known == rest);
-                let material = known.unwrap_or_else(|| {
-                    self.materials.push((rest.to_owned(), number));
-                    self.materials.len() - 1
-                });
-                self.items.push(Item::Material(material));
-            }
+            "usemtl" => self.chosen = Some((rest.to_owned(), number)),
             // Names, groups, smoothing groups, curves and comments.
             _ => {}
         }
@@ -244,6 +239,7 @@ impl Reader {
             self.corners.truncate(first);
             warnings.add(number, "a face with fewer than three corners was left out");
         } else {
+            self.use_material();
             self.items.push(Item::Face {
                 line: number,
                 first,
@@ -251,6 +247,22 @@ impl Reader {
             });
         }
         Ok(())
+    }
+
+    /// Brings the material that was chosen last into use.
+    fn use_material(&mut self) {
+        let Some(chosen) = self.chosen.take() else {
+            return;
+        };
+        let known = self
+            .materials
+            .iter()
+            .position(|(known, _)| *known == chosen.0);
+        let material = known.unwrap_or_else(|| {
+            self.materials.push(chosen);
+            self.materials.len() - 1
+        });
+        self.items.push(Item::Material(material));
     }
 
     /// A number from 1; a negative one counts back from the latest.

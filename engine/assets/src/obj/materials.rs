@@ -11,6 +11,10 @@ use crate::{Material, TextureId};
 /// Luminance of linear Rec. 709.
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
+/// The reflectance of glass with a refractive index of 1.8: hardly any material
+/// that is no metal and no gem reflects more at normal incidence.
+const MAX_DIELECTRIC: f32 = 0.08;
+
 /// A picture to load, and what becomes of it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Request {
@@ -94,12 +98,9 @@ impl Materials {
         let base_color = color(source.diffuse, default.base_color).clamp(Vec3::ZERO, Vec3::ONE);
         let specular = match source.specular {
             Some(specular) => {
-                let share = if base_color.max_element() > 0.01 {
-                    0.08
-                } else {
-                    1.0
-                };
-                (Vec3::from_array(specular).dot(LUMINANCE) * share).clamp(0.0, 1.0)
+                let is_metal = base_color.max_element() <= 0.01;
+                let most = if is_metal { 1.0 } else { MAX_DIELECTRIC };
+                Vec3::from_array(specular).dot(LUMINANCE).clamp(0.0, most)
             }
             None => default.specular,
         };
@@ -113,15 +114,16 @@ impl Materials {
             ..default
         };
 
-        let mut look_up = |map: &str| {
-            let map = parse_map(map);
+        let mut look_up = |map_text: &str| {
+            let map = parse_map(map_text);
             let found = find(files, &entry.library, map.path);
             if found.is_none() {
                 let message = format!(
                     "the picture `{}` is not there; put it beside the model",
                     map.path
                 );
-                warnings.add_in(&files.display(&entry.library), None, &message);
+                let line = entry.map_lines.get(map_text).copied();
+                warnings.add_in(&files.display(&entry.library), line, &message);
             }
             (found, map.bump)
         };

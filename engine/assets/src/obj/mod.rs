@@ -6,7 +6,7 @@
 //! | in the file | becomes |
 //! | --- | --- |
 //! | `Kd` | base colour, taken as linear |
-//! | `Ks` | specular: 0.08 × its luminance beside a diffuse colour, as the exporters of today write it (0.5 for most plastics), and its luminance itself where `Kd` is black, a metal |
+//! | `Ks` | specular: its luminance, but at most 0.08 beside a diffuse colour, for only metals (`Kd` black) reflect more; many files were written for models without units, and say 0.5 or 1 |
 //! | `Ns` | Blinn-Phong exponent, clamped to 1..1448 |
 //! | `Ke` | emissive |
 //! | `map_Kd` | base colour texture, sRGB |

@@ -1,7 +1,9 @@
 //! Material libraries: a first reading line by line, for the same reasons as
 //! that of the OBJ file, then the parser.
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
+use std::rc::Rc;
 
 use super::clean::{keyword, logical_lines, shortened};
 use super::{Warnings, read_text};
@@ -12,6 +14,8 @@ pub(super) struct Entry {
     pub(super) material: tobj::Material,
     /// Of the library, for paths of pictures.
     pub(super) library: String,
+    /// Where its library names each picture first.
+    pub(super) map_lines: Rc<HashMap<String, usize>>,
 }
 
 /// Reads all libraries that an OBJ file names; what is wrong becomes warnings.
@@ -70,13 +74,15 @@ fn read_library(files: &Files, path: &str, warnings: &mut Warnings) -> Vec<Entry
             return Vec::new();
         }
     };
-    let clean = clean(&shown, &text, warnings);
+    let (clean, map_lines) = clean(&shown, &text, warnings);
+    let map_lines = Rc::new(map_lines);
     match tobj::load_mtl_buf(&mut clean.as_bytes()) {
         Ok((materials, _)) => materials
             .into_iter()
             .map(|material| Entry {
                 material,
                 library: path.to_owned(),
+                map_lines: Rc::clone(&map_lines),
             })
             .collect(),
         Err(error) => {
@@ -90,9 +96,11 @@ fn read_library(files: &Files, path: &str, warnings: &mut Warnings) -> Vec<Entry
     }
 }
 
-/// Keeps the lines that are carried, in the form that the parser reads.
-fn clean(path: &str, text: &str, warnings: &mut Warnings) -> String {
+/// Keeps the lines that are carried, in the form that the parser reads, and
+/// notes where pictures are named.
+fn clean(path: &str, text: &str, warnings: &mut Warnings) -> (String, HashMap<String, usize>) {
     let mut clean = String::new();
+    let mut map_lines = HashMap::new();
     let mut named = false;
     for (line, content) in logical_lines(text) {
         let (word, rest) = keyword(&content);
@@ -143,13 +151,14 @@ fn clean(path: &str, text: &str, warnings: &mut Warnings) -> String {
                 if rest.is_empty() {
                     warn(&format!("`{word}` names no picture"));
                 } else {
+                    map_lines.entry(rest.to_owned()).or_insert(line);
                     let _ = writeln!(clean, "{key} {rest}");
                 }
             }
             _ => {}
         }
     }
-    clean
+    (clean, map_lines)
 }
 
 /// Three numbers; one alone stands for all.
@@ -229,7 +238,8 @@ mod tests {
         let mut warnings = Warnings::new("x.obj");
         let text = "Kd 1 1 1\nnewmtl a b\n\tKd 0.5\nKs 1 2\nKe spectral x.rfl\nNs\nillum 2.5\nTr 0.25\nmap_Kd\n\
                     MAP_KD x y.png\nd -halo 0.5\nnewmtl\nKd 1 0 0\n";
-        let clean = clean("x.mtl", text, &mut warnings);
+        let (clean, map_lines) = clean("x.mtl", text, &mut warnings);
+        assert_eq!(map_lines, HashMap::from([("x y.png".to_owned(), 10)]));
         assert_eq!(
             clean,
             "newmtl a b\nKd 0.5 0.5 0.5\nd 0.75\nmap_Kd x y.png\nd 0.5\n"

@@ -209,7 +209,7 @@ fn materials_become_what_the_table_says() {
     assert_eq!(model.meshes[0].0.triangle_count(), 2);
     let oak = &model.materials[0];
     assert_eq!(oak.base_color, Vec3::new(0.5, 0.25, 0.125));
-    assert!((oak.specular - 0.04).abs() < 1e-6);
+    assert_eq!(oak.specular, 0.08);
     assert_eq!(
         (oak.power, oak.emissive),
         (1448.0, Vec3::new(0.0, 0.0, 3.0))
@@ -267,8 +267,8 @@ fn each_missing_thing_is_told_once() {
     assert_eq!(
         found,
         [
-            "a.mtl: the picture `gone.png` is not there; put it beside the model",
-            "a.mtl: the picture `gone2.png` is not there; put it beside the model",
+            "a.mtl, line 2: the picture `gone.png` is not there; put it beside the model",
+            "a.mtl, line 6: the picture `gone2.png` is not there; put it beside the model",
             "x.obj, line 10: the material `c` is in no material file; it is drawn in the default one",
         ]
     );
@@ -309,7 +309,9 @@ fn pictures_are_found_by_foreign_paths_but_not_outside() {
     assert_eq!(model.textures.len(), 2);
     assert_eq!(
         warnings(&model),
-        ["m/x.mtl: the picture `../../../etc/passwd` is not there; put it beside the model"]
+        [
+            "m/x.mtl, line 6: the picture `../../../etc/passwd` is not there; put it beside the model"
+        ]
     );
 }
 
