@@ -8,6 +8,7 @@ pub mod analysis;
 pub mod csv;
 pub mod format;
 pub mod html;
+mod images;
 mod model;
 #[cfg(test)]
 pub(crate) mod sample;

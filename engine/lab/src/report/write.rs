@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use super::images::{self, Encoded};
 use super::model::{Comparison, SCHEMA};
 use super::{csv, html};
 use crate::LabError;
@@ -28,7 +29,8 @@ pub struct ReportFiles {
 /// [`LabError::Write`] if a file can't be written, [`LabError::Encode`] if a picture can't be
 /// encoded.
 pub fn write_report(comparison: &mut Comparison, folder: &Path) -> Result<ReportFiles, LabError> {
-    let pictures = write_pictures(comparison, folder)?;
+    let images = images::encode(comparison)?;
+    let pictures = write_pictures(comparison, &images, folder)?;
     let json = folder.join("report.json");
     write_atomically(&json, to_json(comparison)?.as_bytes())?;
     let tables = [
@@ -44,7 +46,7 @@ pub fn write_report(comparison: &mut Comparison, folder: &Path) -> Result<Report
         csv.push(path);
     }
     let html = folder.join("report.html");
-    write_atomically(&html, html::page(comparison)?.as_bytes())?;
+    write_atomically(&html, html::page_with(comparison, &images).as_bytes())?;
     Ok(ReportFiles {
         html,
         json,
@@ -53,31 +55,24 @@ pub fn write_report(comparison: &mut Comparison, folder: &Path) -> Result<Report
     })
 }
 
-fn write_pictures(comparison: &mut Comparison, folder: &Path) -> Result<Vec<PathBuf>, LabError> {
+fn write_pictures(
+    comparison: &mut Comparison,
+    images: &[Encoded],
+    folder: &Path,
+) -> Result<Vec<PathBuf>, LabError> {
     let mut written = Vec::new();
     let mut taken = HashSet::new();
-    for pipeline in &mut comparison.pipelines {
+    for (pipeline, image) in comparison.pipelines.iter_mut().zip(images) {
         let stem = unique_stem(&pipeline.name, &mut taken);
-        let images = [
-            (
-                &pipeline.picture,
-                &mut pipeline.picture_file,
-                format!("pictures/{stem}.png"),
-            ),
-            (
-                &pipeline.heat_map,
-                &mut pipeline.heat_map_file,
-                format!("pictures/{stem}-flip.png"),
-            ),
-        ];
-        for (image, noted, name) in images {
-            if let Some(image) = image {
-                let path = folder.join(&name);
-                write_atomically(&path, &image.to_png()?)?;
-                *noted = Some(name);
-                written.push(path);
-            }
-        }
+        let mut write = |png: &Option<Vec<u8>>, name: String| -> Result<_, LabError> {
+            let Some(png) = png else { return Ok(None) };
+            let path = folder.join(&name);
+            write_atomically(&path, png)?;
+            written.push(path);
+            Ok(Some(name))
+        };
+        pipeline.picture_file = write(&image.picture, format!("pictures/{stem}.png"))?;
+        pipeline.heat_map_file = write(&image.heat_map, format!("pictures/{stem}-flip.png"))?;
     }
     Ok(written)
 }

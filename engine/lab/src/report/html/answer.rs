@@ -91,19 +91,23 @@ pub fn section(w: &mut Writer, c: &Comparison, analysis: &Analysis, statements: 
 fn key_table(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
     let clock = clock_name(c, analysis.clock);
     let baseline = c.pipelines[analysis.baseline].label();
-    let columns = [
+    let several = c.pipelines.len() > 1;
+    let mut columns = vec![
         words("Pipeline"),
         numbers("Frame, median"),
         numbers("95 % interval, ms"),
         numbers("95th percentile"),
-        numbers(&format!("Speed, {baseline} = 1")),
-        words("Verdict"),
-        numbers("FLIP, mean"),
-        numbers("FLIP, 99th pct."),
-        numbers("Pixels over bound"),
-        numbers("Targets"),
-        numbers("Bytes / px"),
     ];
+    if several {
+        columns.extend([
+            numbers(&format!("Speed, {baseline} = 1")),
+            words("Verdict"),
+            numbers("FLIP, mean"),
+            numbers("FLIP, 99th pct."),
+            numbers("Pixels over bound"),
+        ]);
+    }
+    columns.extend([numbers("Targets"), numbers("Bytes / px")]);
     let rows: Vec<Vec<String>> = c
         .pipelines
         .iter()
@@ -119,8 +123,10 @@ fn key_table(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
                 ),
                 or_dash(time.map(|t| significant(t.p95))),
             ];
-            row.extend(speed_cells(analysis.against_baseline[i]));
-            row.extend(picture_cells(p, c));
+            if several {
+                row.extend(speed_cells(analysis.against_baseline[i]));
+                row.extend(picture_cells(p, c));
+            }
             row.push(bytes(p.target_bytes_total));
             row.push(significant(bytes_a_pixel(p, c)));
             row
@@ -144,6 +150,7 @@ fn speed_cells(ratio: Option<Ratio>) -> [String; 2] {
         Verdict::Slower => "slower",
         Verdict::Same => "the same within 5 %",
         Verdict::Undecided => "undecided",
+        Verdict::TooFew if ratio.speed.is_nan() => "no times",
         Verdict::TooFew => "too few frames",
     };
     let speed = match ratio.interval {

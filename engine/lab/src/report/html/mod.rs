@@ -15,6 +15,7 @@ mod writer;
 use self::writer::Writer;
 use super::analysis::Analysis;
 use super::format::milliseconds;
+use super::images::{self, Encoded};
 use super::model::Comparison;
 use super::summary;
 use crate::LabError;
@@ -31,9 +32,13 @@ const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inlin
 /// # Errors
 /// [`LabError::Encode`] if a picture can't be encoded as PNG.
 pub fn page(comparison: &Comparison) -> Result<String, LabError> {
+    Ok(page_with(comparison, &images::encode(comparison)?))
+}
+
+/// The whole page with pictures that are encoded already.
+pub(super) fn page_with(comparison: &Comparison, images: &[Encoded]) -> String {
     let analysis = Analysis::of(comparison);
     let statements = summary::summarize(comparison, &analysis);
-    let images = pictures::encode(comparison)?;
     let mut w = Writer::default();
     w.constant("<!DOCTYPE html>\n");
     w.element("html", &[("lang", "en")], |w| {
@@ -42,7 +47,7 @@ pub fn page(comparison: &Comparison) -> Result<String, LabError> {
             answer::header(w, comparison);
             w.element("main", &[], |w| {
                 answer::section(w, comparison, &analysis, &statements);
-                pictures::section(w, comparison, &images);
+                pictures::section(w, comparison, images);
                 passes::times_section(w, comparison, &analysis);
                 passes::memory_section(w, comparison);
                 provenance::run_again_section(w, comparison);
@@ -54,7 +59,7 @@ pub fn page(comparison: &Comparison) -> Result<String, LabError> {
             w.element("script", &[], |w| w.constant(SCRIPT));
         });
     });
-    Ok(w.finish())
+    w.finish()
 }
 
 fn head(w: &mut Writer, title: &str) {

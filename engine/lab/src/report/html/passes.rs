@@ -1,7 +1,7 @@
 //! Times and memory, pass by pass and target by target.
 
 use super::answer::bytes_a_pixel;
-use super::table::{facts, numbers, table, words};
+use super::table::{numbers, table, words};
 use super::writer::Writer;
 use super::{charts, or_dash, software_note};
 use crate::report::analysis::Analysis;
@@ -75,20 +75,34 @@ fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
     rows.push(total_row(p));
     let caption = format!("Passes of {}, ms a frame{}.", p.label(), software_note(c));
     table(w, &caption, &columns, &rows);
-    let missing: Vec<(&str, String)> = p
+    for (why, what) in reasons(p) {
+        let why = why.trim_end_matches('.');
+        w.leaf(
+            "p",
+            &[("class", "note")],
+            &format!("Not measured: {} ({why}).", what.join(", ")),
+        );
+    }
+}
+
+/// Each reason for which something was not measured, with what it concerns.
+fn reasons(p: &PipelineResult) -> Vec<(&str, Vec<&str>)> {
+    let frame = p
+        .gpu_why_not
+        .as_deref()
+        .map(|why| (why, "GPU time of the frame"));
+    let passes = p
         .passes
         .iter()
-        .filter_map(|pass| Some((pass.name.as_str(), pass.why_not.clone()?)))
-        .chain(
-            p.gpu_why_not
-                .clone()
-                .map(|why| ("GPU time of the frame", why)),
-        )
-        .collect();
-    if !missing.is_empty() {
-        w.leaf("p", &[("class", "note")], "Not measured, and why:");
-        facts(w, &missing);
+        .filter_map(|pass| Some((pass.why_not.as_deref()?, &*pass.name)));
+    let mut grouped: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (why, what) in frame.into_iter().chain(passes) {
+        match grouped.iter_mut().find(|(known, _)| *known == why) {
+            Some((_, all)) => all.push(what),
+            None => grouped.push((why, vec![what])),
+        }
     }
+    grouped
 }
 
 fn pass_row(pass: &PassResult) -> Vec<String> {

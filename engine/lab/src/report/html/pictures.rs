@@ -2,43 +2,24 @@
 
 use super::table::{numbers, table, words};
 use super::writer::{Writer, data_uri};
-use crate::LabError;
 use crate::colormap::ColorMap;
 use crate::diff::{ldr_lines, linear_lines, number};
+use crate::report::images::Encoded;
 use crate::report::model::{Comparison, PipelineResult};
-
-/// Pictures of a pipeline as `data:` addresses.
-pub struct Encoded {
-    picture: Option<String>,
-    heat_map: Option<String>,
-}
-
-/// Encodes all pictures.
-pub fn encode(c: &Comparison) -> Result<Vec<Encoded>, LabError> {
-    let uri = |image: &Option<crate::LdrImage>| -> Result<Option<String>, LabError> {
-        image
-            .as_ref()
-            .map(|i| i.to_png().map(|png| data_uri(&png)))
-            .transpose()
-    };
-    c.pipelines
-        .iter()
-        .map(|p| {
-            Ok(Encoded {
-                picture: uri(&p.picture)?,
-                heat_map: uri(&p.heat_map)?,
-            })
-        })
-        .collect()
-}
 
 /// Viewer, pictures and metrics.
 pub fn section(w: &mut Writer, c: &Comparison, images: &[Encoded]) {
+    let compared = c.pipelines.iter().any(|p| p.difference.is_some());
+    let heading = if compared {
+        "Where the pictures differ"
+    } else {
+        "Pictures"
+    };
     w.element(
         "section",
         &[("id", "pictures"), ("aria-labelledby", "pictures-h")],
         |w| {
-            w.leaf("h2", &[("id", "pictures-h")], "Where the pictures differ");
+            w.leaf("h2", &[("id", "pictures-h")], heading);
             if images.iter().filter(|i| i.picture.is_some()).count() > 1 {
                 viewer(w);
             }
@@ -115,85 +96,96 @@ fn viewer(w: &mut Writer) {
     });
 }
 
+/// A pipeline's picture and, beside it, its heat map.
 fn pair(w: &mut Writer, c: &Comparison, p: &PipelineResult, image: &Encoded, index: usize) {
     let is_reference = p.name == c.reference;
-    let [width, height] = c.size.map(|s| s.to_string());
+    let label = p.label();
     w.element("article", &[("class", "pair")], |w| {
-        let heading = if is_reference {
-            format!("{} (reference)", p.label())
+        let several = c.pipelines.len() > 1;
+        let role = if is_reference && several {
+            " (reference)"
         } else {
-            p.label().to_owned()
+            ""
         };
-        w.leaf("h3", &[], &heading);
+        w.leaf("h3", &[], &format!("{label}{role}"));
         if !p.description.is_empty() {
             w.leaf("p", &[("class", "about")], &p.description);
         }
         w.element("div", &[("class", "figures")], |w| {
-            if let Some(uri) = &image.picture {
-                w.element("figure", &[], |w| {
-                    let id = format!("picture-{index}");
-                    let alt = format!("Picture of {}", p.label());
-                    w.void(
-                        "img",
-                        &[
-                            ("id", &id),
-                            ("class", "shot"),
-                            ("data-label", p.label()),
-                            ("src", uri),
-                            ("alt", &alt),
-                            ("width", &width),
-                            ("height", &height),
-                        ],
-                    );
-                    w.leaf(
-                        "figcaption",
-                        &[],
-                        "Picture, 8-bit sRGB after the tone curve",
-                    );
-                });
-            } else {
-                w.leaf("p", &[], "No picture was kept.");
+            match (&image.picture, &p.picture) {
+                (Some(png), Some(picture)) => shot(
+                    w,
+                    &Shot {
+                        id: &format!("picture-{index}"),
+                        label,
+                        alt: &format!("Picture of {label}"),
+                        caption: "Picture, 8-bit sRGB after the tone curve",
+                        size: [picture.width, picture.height],
+                    },
+                    png,
+                ),
+                _ => w.leaf("p", &[("class", "aside")], "No picture was kept."),
             }
-            match (&image.heat_map, &p.difference) {
-                (Some(uri), Some(d)) => w.element("figure", &[], |w| {
-                    let alt = format!(
-                        "Heat map of the FLIP difference of {} from the reference",
-                        p.label()
-                    );
-                    w.void(
-                        "img",
-                        &[
-                            ("class", "shot"),
-                            ("data-label", &format!("{} – FLIP", p.label())),
-                            ("src", uri),
-                            ("alt", &alt),
-                            ("width", &width),
-                            ("height", &height),
-                        ],
-                    );
-                    let caption = if d.is_identical() {
-                        "FLIP difference: none, every pixel is equal".to_owned()
-                    } else {
-                        format!(
-                            "FLIP difference: mean {}, 99th percentile {}, maximum {}",
-                            number(d.flip.mean),
-                            number(d.flip.p99),
-                            number(d.flip.max)
-                        )
-                    };
-                    w.leaf("figcaption", &[], &caption);
-                }),
+            match (&image.heat_map, &p.heat_map) {
+                (Some(png), Some(map)) => shot(
+                    w,
+                    &Shot {
+                        id: &format!("difference-{index}"),
+                        label: &format!("{label} – FLIP"),
+                        alt: &format!("Heat map of the FLIP difference of {label}"),
+                        caption: &difference_caption(p),
+                        size: [map.width, map.height],
+                    },
+                    png,
+                ),
+                _ if !several => {}
                 _ if is_reference => {
-                    w.leaf(
-                        "p",
-                        &[("class", "aside")],
-                        "All other pictures are compared with this one.",
-                    );
+                    let text = "All other pictures are compared with this one.";
+                    w.leaf("p", &[("class", "aside")], text);
                 }
                 _ => w.leaf("p", &[("class", "aside")], "This picture was not compared."),
             }
         });
     });
+}
+
+/// A picture of the page that the viewer can show too.
+struct Shot<'a> {
+    id: &'a str,
+    label: &'a str,
+    alt: &'a str,
+    caption: &'a str,
+    size: [u32; 2],
+}
+
+fn shot(w: &mut Writer, shot: &Shot, png: &[u8]) {
+    let [width, height] = shot.size.map(|s| s.to_string());
+    w.element("figure", &[], |w| {
+        let attributes = [
+            ("id", shot.id),
+            ("class", "shot"),
+            ("data-label", shot.label),
+            ("src", &data_uri(png)),
+            ("alt", shot.alt),
+            ("width", &width),
+            ("height", &height),
+        ];
+        w.void("img", &attributes);
+        w.leaf("figcaption", &[], shot.caption);
+    });
+}
+
+fn difference_caption(p: &PipelineResult) -> String {
+    match &p.difference {
+        None => "FLIP difference".into(),
+        Some(d) if d.is_identical() => "FLIP difference: none, every pixel is equal".into(),
+        Some(d) => format!(
+            "FLIP difference: mean {}, 99th percentile {}, maximum {}",
+            number(d.flip.mean),
+            number(d.flip.p99),
+            number(d.flip.max)
+        ),
+    }
 }
 
 /// The colours of the heat maps with their values.

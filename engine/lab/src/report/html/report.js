@@ -28,7 +28,7 @@
   for (const select of [left, right]) {
     shots.forEach((shot, i) => select.add(new Option(shot.dataset.label, i)));
   }
-  const pictures = shots.map((shot, i) => (shot.id ? i : -1)).filter((i) => i >= 0);
+  const pictures = shots.map((shot, i) => (shot.id.startsWith("picture-") ? i : -1)).filter((i) => i >= 0);
   right.value = pictures[1] ?? 1;
   left.value = pictures[0] ?? 0;
   const [below, above] = [new Image(), new Image()];
