@@ -1,6 +1,7 @@
 //! Joins what a pass declares with what its shader asks for.
 
 use crate::description::{ParameterKind, PassDesc, PipelineDesc};
+use crate::gpu::Gpu;
 use crate::problem::{Place, Problem, suggestion};
 use crate::reflection::{BindingKind, FRAGMENT_ENTRY, Reflection, SampleKind};
 use crate::shader::{Shader, place_of};
@@ -22,6 +23,60 @@ pub enum Source {
     LinearSampler,
     /// The sampler that takes the nearest texel.
     NearestSampler,
+}
+
+/// The layout of group 1, or none where the shader reads no target.
+pub fn target_layout(
+    gpu: &Gpu,
+    sources: &[(u32, Source)],
+    desc: &PipelineDesc,
+) -> Option<wgpu::BindGroupLayout> {
+    let features = gpu.device.features();
+    let filters = sources
+        .iter()
+        .any(|(_, source)| *source == Source::LinearSampler);
+    let entries: Vec<_> = sources
+        .iter()
+        .map(|(binding, source)| wgpu::BindGroupLayoutEntry {
+            binding: *binding,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: match source {
+                Source::Target { target, kind } => wgpu::BindingType::Texture {
+                    sample_type: match kind {
+                        SampleKind::Depth => wgpu::TextureSampleType::Depth,
+                        SampleKind::Uint => wgpu::TextureSampleType::Uint,
+                        SampleKind::Sint => wgpu::TextureSampleType::Sint,
+                        SampleKind::Float => {
+                            let format = desc.target(target).map(|target| target.format.0);
+                            let native =
+                                format.and_then(|format| format.sample_type(None, Some(features)));
+                            let filterable =
+                                native == Some(wgpu::TextureSampleType::Float { filterable: true });
+                            wgpu::TextureSampleType::Float {
+                                filterable: filters && filterable,
+                            }
+                        }
+                    },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                Source::LinearSampler => {
+                    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
+                }
+                Source::NearestSampler => {
+                    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)
+                }
+            },
+            count: None,
+        })
+        .collect();
+    (!entries.is_empty()).then(|| {
+        gpu.device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("targets"),
+                entries: &entries,
+            })
+    })
 }
 
 /// Checks the shader of a pass against its declaration and finds the source of each binding.

@@ -184,6 +184,21 @@ impl Gpu {
         Self::from_adapter(adapter, options)
     }
 
+    /// Opens a device that can draw to a window's surface, chosen as [`Gpu::open`] does.
+    ///
+    /// # Errors
+    /// [`GpuError`] with the way to mend it.
+    pub fn open_for(
+        instance: &wgpu::Instance,
+        surface: &wgpu::Surface<'_>,
+        options: &GpuOptions,
+    ) -> Result<Self, GpuError> {
+        let mut adapters = enumerate(instance);
+        adapters.retain(|adapter| adapter.is_surface_supported(surface));
+        let adapter = Self::choose(adapters, options.adapter.as_deref())?;
+        Self::from_adapter(adapter, options)
+    }
+
     /// Chooses among adapters by part of a name or by number.
     fn choose(
         mut adapters: Vec<wgpu::Adapter>,

@@ -211,6 +211,11 @@ impl Renderer {
         &self.frame
     }
 
+    /// The lights of the last frame as shaders saw them, in the order of their rows.
+    pub fn lights(&self) -> &[crate::gpu_data::LightData] {
+        self.scene.lights()
+    }
+
     /// Query results that have come back, without waiting.
     ///
     /// # Errors

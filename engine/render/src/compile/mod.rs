@@ -3,20 +3,25 @@
 //! Everything is checked before anything is built, and everything is built before anything is
 //! replaced: a pipeline that fails to compile leaves the one on screen alone.
 
+mod state;
+
 use std::collections::HashMap;
 
 use lightbench_assets::files::Files;
 
-use crate::binding::{Source, bind};
-use crate::description::{Blend, DepthCompare, PassDesc, PassKind, PipelineDesc, ShaderDesc};
+use crate::binding::{bind, target_layout};
+use crate::description::{PassDesc, PassKind, PipelineDesc, ShaderDesc};
 use crate::gpu::Gpu;
 use crate::layout::SceneLayout;
 use crate::pipeline::{CompiledPass, LightPipelines, ParameterBlock, PassPipelines, Pipeline};
 use crate::problem::{Problem, Problems};
-use crate::reflection::{FRAGMENT_ENTRY, Reflection, SampleKind, VERTEX_ENTRY, reflect};
+use crate::reflection::{FRAGMENT_ENTRY, Reflection, VERTEX_ENTRY, reflect};
 use crate::shader::{Shader, ShaderComposer};
 use crate::validate::validate;
 use crate::variant::Variant;
+use state::{State, VertexStreams, blend, compare};
+
+pub use state::DrawPipeline;
 
 /// The vertex stages that passes use whose shader brings none.
 const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
@@ -184,7 +189,7 @@ impl Compiler {
             parameters = loaded.reflection.parameters.clone();
         }
 
-        let target_layout = self.target_layout(&sources, desc);
+        let target_layout = target_layout(&self.gpu, &sources, desc);
         let parameters =
             parameters.map(|(members, size)| ParameterBlock::new(&self.gpu, members, size));
         let layout = self
@@ -401,143 +406,5 @@ impl Compiler {
             pipeline,
             attributes: streams == VertexStreams::All,
         })
-    }
-
-    /// The layout of group 1, or none where the shader reads no target.
-    fn target_layout(
-        &self,
-        sources: &[(u32, Source)],
-        desc: &PipelineDesc,
-    ) -> Option<wgpu::BindGroupLayout> {
-        let features = self.gpu.device.features();
-        let filters = sources
-            .iter()
-            .any(|(_, source)| *source == Source::LinearSampler);
-        let entries: Vec<_> = sources
-            .iter()
-            .map(|(binding, source)| wgpu::BindGroupLayoutEntry {
-                binding: *binding,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: match source {
-                    Source::Target { target, kind } => wgpu::BindingType::Texture {
-                        sample_type: match kind {
-                            SampleKind::Depth => wgpu::TextureSampleType::Depth,
-                            SampleKind::Uint => wgpu::TextureSampleType::Uint,
-                            SampleKind::Sint => wgpu::TextureSampleType::Sint,
-                            SampleKind::Float => {
-                                let format = desc.target(target).map(|target| target.format.0);
-                                let native = format
-                                    .and_then(|format| format.sample_type(None, Some(features)));
-                                let filterable = native
-                                    == Some(wgpu::TextureSampleType::Float { filterable: true });
-                                wgpu::TextureSampleType::Float {
-                                    filterable: filters && filterable,
-                                }
-                            }
-                        },
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
-                    },
-                    Source::LinearSampler => {
-                        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
-                    }
-                    Source::NearestSampler => {
-                        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)
-                    }
-                },
-                count: None,
-            })
-            .collect();
-        (!entries.is_empty()).then(|| {
-            self.gpu
-                .device
-                .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                    label: Some("targets"),
-                    entries: &entries,
-                })
-        })
-    }
-}
-
-/// A render pipeline, and whether it reads the second vertex stream.
-#[derive(Clone, Debug)]
-pub struct DrawPipeline {
-    /// The pipeline.
-    pub pipeline: wgpu::RenderPipeline,
-    /// Whether normals, texture coordinates and tangents must be bound.
-    pub attributes: bool,
-}
-
-/// What differs between the pipelines of one pass.
-struct State {
-    fragment_defines: &'static [&'static str],
-    vertex_path: &'static str,
-    vertex_defines: &'static [&'static str],
-    /// Whether the pass's shader may bring its own vertex stage.
-    own_vertex: bool,
-    cull: Option<wgpu::Face>,
-    front: wgpu::FrontFace,
-    depth_compare: Option<wgpu::CompareFunction>,
-}
-
-/// The vertex buffers that a vertex stage needs.
-#[derive(Clone, Copy, PartialEq)]
-enum VertexStreams {
-    None,
-    Positions,
-    All,
-}
-
-const POSITIONS: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
-    array_stride: 12,
-    step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-};
-
-const ATTRIBUTES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
-    array_stride: 36,
-    step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x2, 3 => Float32x4],
-};
-
-impl VertexStreams {
-    fn of(reflection: &Reflection) -> Self {
-        match reflection.vertex_inputs.last() {
-            None => Self::None,
-            Some(0) => Self::Positions,
-            Some(_) => Self::All,
-        }
-    }
-
-    fn layouts(self) -> &'static [Option<wgpu::VertexBufferLayout<'static>>] {
-        match self {
-            Self::None => &[],
-            Self::Positions => &[Some(POSITIONS)],
-            Self::All => &[Some(POSITIONS), Some(ATTRIBUTES)],
-        }
-    }
-}
-
-fn compare(test: DepthCompare) -> wgpu::CompareFunction {
-    match test {
-        DepthCompare::Nearer => wgpu::CompareFunction::GreaterEqual,
-        DepthCompare::Equal => wgpu::CompareFunction::Equal,
-        DepthCompare::Always => wgpu::CompareFunction::Always,
-    }
-}
-
-fn blend(blend: Blend) -> Option<wgpu::BlendState> {
-    let one = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    };
-    match blend {
-        Blend::Replace => None,
-        Blend::Add => Some(wgpu::BlendState {
-            color: one,
-            alpha: one,
-        }),
-        Blend::Over => Some(wgpu::BlendState::ALPHA_BLENDING),
     }
 }

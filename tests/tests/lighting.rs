@@ -1,0 +1,212 @@
+//! The light at a pixel equals the light that the CPU computes for the surface at that pixel.
+#![allow(clippy::unwrap_used)]
+
+use glam::{DMat4, DVec3, DVec4};
+use lightbench::lab::reference::{Surface, brdf, normals, outgoing_radiance};
+use lightbench::render::TargetImage;
+use lightbench::render::gpu_data::LightData;
+use lightbench::world::Light;
+use lightbench_tests::{Numbers, Studio, settings};
+
+const SIZE: (u32, u32) = (320, 180);
+const PIXELS: usize = 1000;
+
+/// The scene's surfaces as deferred shading keeps them.
+struct Surfaces {
+    depth: TargetImage,
+    albedo: TargetImage,
+    normal: TargetImage,
+    power: TargetImage,
+    /// What shines by itself: the frame without any light.
+    emission: TargetImage,
+    to_world: DMat4,
+    eye: DVec3,
+    lights: Vec<LightData>,
+}
+
+impl Surfaces {
+    fn read(studio: &mut Studio) -> Self {
+        let none = settings(&[]);
+        let pipeline = studio.draw("deferred_shading", &none, SIZE);
+        let read = |name: &str| studio.renderer.read_target(&pipeline, name).unwrap();
+        let [depth, albedo, normal, power] = ["depth", "g_albedo", "g_normal", "g_power"].map(read);
+        let data = studio.renderer.frame().data;
+        let lights = studio.renderer.lights().to_vec();
+
+        let dark = studio.scene.world.clone();
+        for &light in dark.columns::<Light>().entities() {
+            studio.scene.world.remove::<Light>(light);
+        }
+        let emission = studio.hdr("deferred_shading", &none, SIZE);
+        studio.scene.world = dark;
+        studio.renderer.reset_scene();
+        Self {
+            depth,
+            albedo,
+            normal,
+            power,
+            emission,
+            to_world: (data.projection.as_dmat4() * data.view.as_dmat4()).inverse(),
+            eye: data.camera_position.as_dvec3(),
+            lights,
+        }
+    }
+
+    /// The surface at a pixel, or none where the sky is.
+    fn at(&self, index: usize) -> Option<Surface> {
+        let depth = f64::from(self.depth.texels[index][0]);
+        let (x, y) = (index % SIZE.0 as usize, index / SIZE.0 as usize);
+        let ndc_x = (x as f64 + 0.5) / f64::from(SIZE.0) * 2.0 - 1.0;
+        let ndc_y = 1.0 - (y as f64 + 0.5) / f64::from(SIZE.1) * 2.0;
+        let position = self.to_world * DVec4::new(ndc_x, ndc_y, depth, 1.0);
+        let rgb = |texel: [f32; 4]| DVec3::new(texel[0].into(), texel[1].into(), texel[2].into());
+        (depth > 0.0).then(|| Surface {
+            position: position.truncate() / position.w,
+            normal: normals::decode_octahedral([0, 1].map(|i| self.normal.texels[index][i] as u16)),
+            base_color: rgb(self.albedo.texels[index]),
+            specular: self.albedo.texels[index][3].into(),
+            power: (10.5 * f64::from(self.power.texels[index][0])).exp2(),
+            emissive: rgb(self.emission.texels[index]),
+        })
+    }
+
+    /// Random pixels that show a surface.
+    fn sample(&self) -> Vec<(usize, Surface)> {
+        let mut numbers = Numbers(20_121_106);
+        let mut found = Vec::new();
+        for _ in 0..PIXELS * 20 {
+            let index = numbers.below(self.depth.texels.len());
+            if let Some(surface) = self.at(index) {
+                found.push((index, surface));
+            }
+            if found.len() == PIXELS {
+                return found;
+            }
+        }
+        panic!(
+            "only {} of {} pixels show a surface",
+            found.len(),
+            PIXELS * 20
+        );
+    }
+
+    fn radiance(&self, surface: &Surface) -> DVec3 {
+        outgoing_radiance(&self.lights, surface, self.eye)
+    }
+}
+
+fn channels(image: &TargetImage, index: usize) -> [f64; 3] {
+    [0, 1, 2].map(|channel| f64::from(image.texels[index][channel]))
+}
+
+/// Within half a percent or 1/1024: 16-bit floats round each of a handful of additions.
+fn deferred_equals_the_cpu(scene: &str) {
+    let mut studio = Studio::new(scene, &settings(&[]));
+    let surfaces = Surfaces::read(&mut studio);
+    let picture = studio.hdr("deferred_shading", &settings(&[]), SIZE);
+    for (index, surface) in surfaces.sample() {
+        let expected = surfaces.radiance(&surface).to_array();
+        for (found, expected) in channels(&picture, index).into_iter().zip(expected) {
+            let error = (found - expected).abs();
+            assert!(
+                error < (0.005 * expected).max(1.0 / 1024.0),
+                "{scene}, pixel {index}: {found} instead of {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn deferred_shading_of_many_lights_equals_the_cpu() {
+    deferred_equals_the_cpu("many_lights");
+}
+
+#[test]
+fn deferred_shading_of_the_atrium_equals_the_cpu() {
+    deferred_equals_the_cpu("atrium");
+}
+
+/// Forward shading sees the surface before the G-buffer rounds it. So it may differ from the CPU's
+/// light on the rounded surface by what rounding can change, and by no more.
+fn forward_equals_the_cpu_within_the_g_buffer(scene: &str) {
+    let mut studio = Studio::new(scene, &settings(&[]));
+    let surfaces = Surfaces::read(&mut studio);
+    let picture = studio.hdr(
+        "forward_single_pass",
+        &settings(&["accumulation=rgba32float"]),
+        SIZE,
+    );
+    let step = 1.0 / 255.0;
+    for (index, surface) in surfaces.sample() {
+        let radiance = surfaces.radiance(&surface);
+        let matt = Surface {
+            specular: 0.0,
+            ..surface
+        };
+        let diffuse = surfaces.radiance(&matt) - surface.emissive;
+        let highlight = radiance - diffuse - surface.emissive;
+        // Half a step of power changes the lobe; half a step of specular scales it.
+        let at_power = |factor: f64| {
+            let surface = Surface {
+                power: (surface.power * factor).max(1.0),
+                specular: 1.0,
+                ..surface
+            };
+            surfaces.radiance(&surface) - diffuse - surface.emissive
+        };
+        let half_power_step = (10.5 * 0.5 * step).exp2();
+        let lobe = at_power(1.0);
+        let power_change = (at_power(half_power_step) - lobe)
+            .abs()
+            .max((at_power(1.0 / half_power_step) - lobe).abs());
+        for channel in 0..3 {
+            let albedo = surface.base_color[channel];
+            let coded = lightbench::lab::reference::color::encode_srgb(albedo);
+            let up = lightbench::lab::reference::color::decode_srgb((coded + 0.5 * step).min(1.0))
+                - albedo;
+            let bound = up / albedo.max(1e-6) * diffuse[channel]
+                + 0.5 * step * lobe[channel]
+                + power_change[channel] * (surface.specular + 0.5 * step)
+                + 0.005 * highlight[channel].abs()
+                + 1e-3 * radiance[channel]
+                + 1e-4;
+            let found = f64::from(picture.texels[index][channel]);
+            let error = (found - radiance[channel]).abs();
+            assert!(
+                error < bound,
+                "{scene}, pixel {index}, channel {channel}: {found} differs from {} by {error}; rounding explains {bound}",
+                radiance[channel]
+            );
+        }
+    }
+}
+
+#[test]
+fn forward_shading_of_many_lights_equals_the_cpu_within_the_g_buffer() {
+    forward_equals_the_cpu_within_the_g_buffer("many_lights");
+}
+
+#[test]
+fn forward_shading_of_the_atrium_equals_the_cpu_within_the_g_buffer() {
+    forward_equals_the_cpu_within_the_g_buffer("atrium");
+}
+
+#[test]
+fn the_check_itself_notices_a_lost_light() {
+    let mut studio = Studio::new("many_lights", &settings(&[]));
+    let surfaces = Surfaces::read(&mut studio);
+    let (_, surface) = surfaces.sample()[0];
+    let brightest = surfaces.lights.iter().enumerate().max_by(|(_, a), (_, b)| {
+        let light =
+            |light: &LightData| outgoing_radiance(&[*light], &surface, surfaces.eye).length();
+        light(a).total_cmp(&light(b))
+    });
+    let mut lights = surfaces.lights.clone();
+    lights.remove(brightest.unwrap().0);
+    let lost = surfaces.radiance(&surface) - outgoing_radiance(&lights, &surface, surfaces.eye);
+    assert!(lost.max_element() > 0.005 * surfaces.radiance(&surface).max_element());
+    // The lobe that the surfaces use is the one that conserves energy.
+    assert!(
+        (brdf::albedo(|i, o| brdf::blinn_phong_lobe(i, o, 10.0), DVec3::Z, 100) - 1.0).abs() < 2e-3
+    );
+}
