@@ -18,11 +18,13 @@ fn main() -> io::Result<()> {
         .join("../..")
         .canonicalize()?;
 
+    println!("cargo::rerun-if-changed=build.rs");
     let mut files = Vec::new();
     for folder in SHIPPED_FOLDERS {
-        // Cargo looks at everything below a folder that is named here.
-        println!("cargo::rerun-if-changed={}", root.join(folder).display());
         if root.join(folder).is_dir() {
+            // Cargo looks at everything below a folder that is named here, and
+            // would run this program every time for one that is not there.
+            println!("cargo::rerun-if-changed={}", root.join(folder).display());
             collect(&root, folder, &mut files)?;
         }
     }

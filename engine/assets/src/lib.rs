@@ -12,6 +12,30 @@
 //! - [`procedural`] and [`procedural_texture`] make geometry and pictures from
 //!   parameters.
 //!
+//! A model is read on a thread of its own, while a window shows how far it is:
+//!
+//! ```
+//! use lightbench_assets::{Assets, Task, files::Files, obj};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # std::fs::write(folder.path().join("chair.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
+//! let files = Files::with_project(folder.path())?;
+//! let task = Task::start(move |progress| {
+//!     obj::load(&files, "chair.obj", &obj::Options::default(), progress)
+//! })?;
+//! println!("{}, {:.0} %", task.progress().label(), 100.0 * task.progress().fraction());
+//!
+//! let model = task.wait()??;
+//! for warning in &model.warnings {
+//!     println!("{warning}");
+//! }
+//! let mut assets = Assets::new();
+//! for (mesh, _material) in model.add_to(&mut assets) {
+//!     println!("{:?}", assets.mesh_bounds()[mesh.0 as usize]);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Units are metres and radians, y is up, a triangle is seen from its front
 //! when its corners run counter-clockwise, and colours are linear Rec. 709
 //! unless a texture's format says sRGB. Texture coordinates have their origin

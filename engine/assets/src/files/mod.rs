@@ -372,10 +372,15 @@ pub fn decode_text(path: &str, bytes: Vec<u8>) -> Result<String, FileError> {
         Some(rest) => rest.to_owned(),
         None => text,
     };
+    Ok(with_plain_line_ends(text))
+}
+
+/// Every line end as LF.
+pub(crate) fn with_plain_line_ends(text: String) -> String {
     if text.contains('\r') {
-        Ok(text.replace("\r\n", "\n").replace('\r', "\n"))
+        text.replace("\r\n", "\n").replace('\r', "\n")
     } else {
-        Ok(text)
+        text
     }
 }
 

@@ -10,7 +10,9 @@ use thiserror::Error;
 
 use crate::files::FileError;
 
-pub use read::{Purpose, decode_picture, decode_texture, read_picture};
+pub use read::{
+    Purpose, decode_picture, decode_texture, load_texture, load_textures, read_picture,
+};
 pub use write::{encode_exr, encode_png, save_exr, save_png};
 
 /// A picture as its file holds it, rows from the top, four values a pixel.

@@ -2,12 +2,15 @@
 
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec4;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use rayon::prelude::*;
 
 use super::{ImageError, Picture, Pixels};
-use crate::{MAX_TEXTURE_SIZE, Texture, TextureFormat};
+use crate::files::Files;
+use crate::{Cancelled, MAX_TEXTURE_SIZE, Progress, Texture, TextureFormat};
 
 /// The most memory that decoding may take, in bytes: a picture of the greatest
 /// size with four floats a pixel, and as much again.
@@ -46,6 +49,42 @@ pub fn decode_texture(path: &str, bytes: &[u8], purpose: Purpose) -> Result<Text
         }
     };
     texture.map_err(|error| ImageError::content(path, error.to_string()))
+}
+
+/// Reads a picture of a file store as a texture.
+///
+/// # Errors
+/// As [`decode_texture`], and a file that can't be read.
+pub fn load_texture(files: &Files, path: &str, purpose: Purpose) -> Result<Texture, ImageError> {
+    let bytes = files.read(path)?;
+    let mut texture = decode_texture(&files.display(path), &bytes, purpose)?;
+    texture.name = path.to_owned();
+    Ok(texture)
+}
+
+/// Reads several pictures, in parallel, and reports the share that is done.
+/// The results are in the order of the paths.
+///
+/// # Errors
+/// The work was asked to stop.
+pub fn load_textures(
+    files: &Files,
+    paths: &[(&str, Purpose)],
+    progress: &Progress,
+) -> Result<Vec<Result<Texture, ImageError>>, Cancelled> {
+    let done = AtomicUsize::new(0);
+    let load = |&(path, purpose): &(&str, Purpose)| {
+        progress.report(done.load(Ordering::Relaxed) as f32 / paths.len() as f32)?;
+        let texture = load_texture(files, path, purpose);
+        done.fetch_add(1, Ordering::Relaxed);
+        Ok(texture)
+    };
+    let textures = paths
+        .par_iter()
+        .map(load)
+        .collect::<Result<_, Cancelled>>()?;
+    progress.report(1.0)?;
+    Ok(textures)
 }
 
 /// Reads a picture from any place on the disk, as for a comparison.

@@ -269,6 +269,45 @@ fn flipped_bytes_never_panic() {
 }
 
 #[test]
+fn several_pictures_come_in_their_order() {
+    let folder = tempfile::tempdir().unwrap();
+    for shade in 0..9_u8 {
+        save_png(
+            folder.path().join(format!("{shade}.png")),
+            1,
+            1,
+            &[shade; 4],
+        )
+        .unwrap();
+    }
+    fs::write(folder.path().join("4.png"), "no picture").unwrap();
+    let files = crate::files::Files::with_project(folder.path()).unwrap();
+    let names: Vec<String> = (0..10).map(|shade| format!("{shade}.png")).collect();
+    let paths: Vec<_> = names
+        .iter()
+        .map(|name| (name.as_str(), Purpose::Data))
+        .collect();
+    let progress = crate::Progress::new();
+    let textures = load_textures(&files, &paths, &progress).unwrap();
+    assert_eq!(progress.fraction(), 1.0);
+    for (shade, texture) in textures.into_iter().enumerate() {
+        match (shade, texture) {
+            (4, Err(error)) => assert!(error.to_string().starts_with("4.png: "), "{error}"),
+            (9, Err(error)) => assert!(error.to_string().contains("no file `9.png`"), "{error}"),
+            (_, texture) => {
+                let texture = texture.unwrap();
+                assert_eq!(
+                    (texture.mips[0][0], &texture.name),
+                    (shade as u8, &names[shade])
+                );
+            }
+        }
+    }
+    progress.cancel();
+    assert!(load_textures(&files, &paths, &progress).is_err());
+}
+
+#[test]
 fn wrong_lengths_and_places_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     assert!(save_png(folder.path().join("x.png"), 2, 2, &[0; 15]).is_err());

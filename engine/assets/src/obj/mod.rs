@@ -36,7 +36,7 @@ use std::sync::Arc;
 use lightbench_world::{MaterialId, MeshBounds, MeshId};
 use thiserror::Error;
 
-use crate::files::{FileError, Files};
+use crate::files::{FileError, Files, with_plain_line_ends};
 use crate::{Assets, Cancelled, Material, Mesh, Progress, Texture, TextureId};
 
 /// How a model is read.
@@ -212,9 +212,11 @@ fn read_text(files: &Files, path: &str) -> Result<String, ModelError> {
         Ok(text) => text,
         Err(error) => error.into_bytes().into_iter().map(char::from).collect(),
     };
-    let text = text.trim_start_matches('\u{feff}');
-    // A lone CR ends a line too; old programs wrote it.
-    Ok(text.replace("\r\n", "\n").replace('\r', "\n"))
+    let text = match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    };
+    Ok(with_plain_line_ends(text))
 }
 
 /// Warnings of one model, one for each cause in each file.
