@@ -1,69 +1,100 @@
 //! Creating and removing many entities at once.
 
+use crate::bits::{BitSet, Scratch};
 use crate::columns::Columns;
 use crate::components::{Family, Stores};
 use crate::entity::Entity;
 use crate::reflect::Role;
+use crate::sets::{GROUPED, TAGGED};
 use crate::stores::{Stored, VisitorMut};
 use crate::ticks::Tick;
 use crate::world::World;
 
+/// Bundles that are split into their components at a time: they fit into the
+/// fastest cache, from where each array takes its own.
+const CHUNK: usize = 64;
+
 /// Several components of one entity: a tuple of up to eight different ones.
-pub trait Bundle {
+pub trait Bundle: Sized {
+    /// One vector for each component.
+    type Rows: Default;
     /// The bits of all components.
     const BITS: u32;
-    /// Makes room in all columns.
-    fn reserve(stores: &mut Stores, additional: usize);
-    /// Sets the tick that the rows will carry.
-    fn set_now(stores: &mut Stores, now: Tick);
-    /// Adds the rows of an entity that has none yet.
-    fn push(self, stores: &mut Stores, entity: Entity, now: Tick);
+    /// Makes room in all columns, and sets the tick that the rows will carry.
+    fn prepare(stores: &mut Stores, additional: usize, now: Tick);
+    /// Adds the components to their vectors.
+    fn split(self, rows: &mut Self::Rows);
+    /// Adds the rows of entities that have none yet, and empties the vectors.
+    fn extend(rows: &mut Self::Rows, stores: &mut Stores, entities: &[Entity], now: Tick);
+    /// The entities of the first component.
+    fn entities(stores: &Stores) -> &[Entity];
 }
 
 macro_rules! bundle {
-    ($($component:ident $row:ident),*) => {
-        impl<$($component: Stored),*> Bundle for ($($component,)*) {
+    ($first:ident $first_row:ident $first_rows:ident $(, $component:ident $row:ident $rows:ident)*) => {
+        impl<$first: Stored, $($component: Stored),*> Bundle for ($first, $($component,)*) {
+            type Rows = (Vec<$first>, $(Vec<$component>,)*);
             const BITS: u32 = {
-                let mut bits = 0;
-                $(
-                    assert!(bits & $component::BITS == 0, "a component stands twice in a bundle");
-                    assert!(
-                        !matches!($component::INFO.role, Role::Computed),
-                        "a computed component cannot be given"
-                    );
-                    bits |= $component::BITS;
-                )*
+                let bits = add_bits::<$first>(0);
+                $(let bits = add_bits::<$component>(bits);)*
                 bits
             };
-            fn reserve(stores: &mut Stores, additional: usize) {
-                $(
-                    $component::columns_mut(stores).reserve(additional);
-                    $component::reserve_follower(stores, additional);
-                )*
-            }
-            fn set_now(stores: &mut Stores, now: Tick) {
-                $($component::columns_mut(stores).set_now(now);)*
+            fn prepare(stores: &mut Stores, additional: usize, now: Tick) {
+                prepare::<$first>(stores, additional, now);
+                $(prepare::<$component>(stores, additional, now);)*
             }
             #[inline]
-            fn push(self, stores: &mut Stores, entity: Entity, now: Tick) {
-                let ($($row,)*) = self;
-                $(
-                    $component::columns_mut(stores).push(entity, $row);
-                    $component::push_follower(stores, entity, now);
-                )*
+            fn split(self, ($first_rows, $($rows,)*): &mut Self::Rows) {
+                let ($first_row, $($row,)*) = self;
+                $first_rows.push($first_row);
+                $($rows.push($row);)*
+            }
+            fn extend(
+                ($first_rows, $($rows,)*): &mut Self::Rows,
+                stores: &mut Stores,
+                entities: &[Entity],
+                now: Tick,
+            ) {
+                extend($first_rows, stores, entities, now);
+                $(extend($rows, stores, entities, now);)*
+            }
+            fn entities(stores: &Stores) -> &[Entity] {
+                $first::columns(stores).entities()
             }
         }
     };
 }
 
-bundle!(A a);
-bundle!(A a, B b);
-bundle!(A a, B b, C c);
-bundle!(A a, B b, C c, D d);
-bundle!(A a, B b, C c, D d, E e);
-bundle!(A a, B b, C c, D d, E e, F f);
-bundle!(A a, B b, C c, D d, E e, F f, G g);
-bundle!(A a, B b, C c, D d, E e, F f, G g, H h);
+/// The bits of a bundle with one more component.
+const fn add_bits<C: Stored>(bits: u32) -> u32 {
+    assert!(bits & C::BITS == 0, "a component stands twice in a bundle");
+    assert!(
+        !matches!(C::INFO.role, Role::Computed),
+        "a computed component cannot be given"
+    );
+    bits | C::BITS
+}
+
+fn prepare<C: Stored>(stores: &mut Stores, additional: usize, now: Tick) {
+    let columns = C::columns_mut(stores);
+    columns.reserve(additional);
+    columns.set_now(now);
+    C::reserve_follower(stores, additional);
+}
+
+fn extend<C: Stored>(rows: &mut Vec<C>, stores: &mut Stores, entities: &[Entity], now: Tick) {
+    C::columns_mut(stores).extend(entities, rows);
+    C::extend_follower(stores, entities, now);
+}
+
+bundle!(A a rows_a);
+bundle!(A a rows_a, B b rows_b);
+bundle!(A a rows_a, B b rows_b, C c rows_c);
+bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d);
+bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e);
+bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e, F f rows_f);
+bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e, F f rows_f, G g rows_g);
+bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e, F f rows_f, G g rows_g, H h rows_h);
 
 impl World {
     /// Creates an entity for each bundle of components, and returns them in the
@@ -78,79 +109,117 @@ impl World {
     /// }));
     /// assert_eq!(lamps.len(), 64);
     /// ```
-    pub fn spawn_batch<B: Bundle>(&mut self, bundles: impl IntoIterator<Item = B>) -> Vec<Entity> {
+    pub fn spawn_batch<B: Bundle>(&mut self, bundles: impl IntoIterator<Item = B>) -> &[Entity] {
         let bundles = bundles.into_iter();
         let announced = bundles.size_hint().0;
         let now = self.clock.now();
         self.entities.reserve(announced);
-        B::reserve(&mut self.stores, announced);
-        B::set_now(&mut self.stores, now);
-        let mut spawned = Vec::with_capacity(announced);
+        B::prepare(&mut self.stores, announced, now);
+        let before = B::entities(&self.stores).len();
+        let mut rows = B::Rows::default();
+        let mut spawned = Vec::with_capacity(CHUNK);
         for bundle in bundles {
-            let entity = self.entities.spawn_with(B::BITS);
-            bundle.push(&mut self.stores, entity, now);
-            spawned.push(entity);
+            bundle.split(&mut rows);
+            spawned.push(self.entities.spawn_with(B::BITS));
+            if spawned.len() == CHUNK {
+                B::extend(&mut rows, &mut self.stores, &spawned, now);
+                spawned.clear();
+            }
         }
-        spawned
+        B::extend(&mut rows, &mut self.stores, &spawned, now);
+        &B::entities(&self.stores)[before..]
     }
 
     /// Removes many entities with their components and descendants, column by
     /// column. Stale handles and repetitions are skipped. Returns how many
     /// entities were removed.
     pub fn despawn_batch(&mut self, entities: &[Entity]) -> usize {
-        let mut removed: Vec<(Entity, u32)> = Vec::with_capacity(entities.len());
-        let family = 1 << Family::KIND as u32;
+        let mut slots = BitSet::default();
+        slots.reset(self.entities.slots());
+        let mut removed = 0;
+        let mut present = 0;
+        let mut free = |world: &mut Self, entity: Entity| {
+            if let Some(bits) = world.entities.despawn(entity) {
+                slots.insert(entity.index() as usize);
+                removed += 1;
+                present |= bits;
+                world.leave_sets(entity, bits);
+            }
+        };
         for &entity in entities {
-            if self.entities.components(entity) & family != 0 {
+            if self.entities.components(entity) & FAMILY != 0 {
                 self.unlink(entity);
                 for descendant in self.descendants(entity) {
-                    let bits = self.entities.despawn(descendant);
-                    removed.extend(bits.map(|bits| (descendant, bits)));
+                    free(self, descendant);
                 }
             }
-            let bits = self.entities.despawn(entity);
-            removed.extend(bits.map(|bits| (entity, bits)));
+            free(self, entity);
         }
-        self.free_all(&removed);
-        removed.len()
+        self.stores.visit_mut(&mut DiscardSlots {
+            slots,
+            present,
+            now: self.clock.now(),
+            scratch: Scratch::default(),
+        });
+        removed
     }
 
-    /// Removes the rows of entities whose slots have been given back.
-    pub(crate) fn free_all(&mut self, removed: &[(Entity, u32)]) {
-        let mut remove = Remove {
-            removed,
-            present: removed.iter().fold(0, |all, (_, bits)| all | bits),
-            now: self.clock.now(),
-        };
-        self.stores.visit_mut(&mut remove);
-        for &(entity, bits) in removed {
-            if bits & crate::sets::TAGGED != 0 {
-                self.tags.forget(entity);
-            }
-            if bits & crate::sets::GROUPED != 0 {
-                self.groups.forget(entity);
-            }
+    /// Removes one entity's components and gives its slot back.
+    pub(crate) fn free(&mut self, entity: Entity) {
+        if let Some(components) = self.entities.despawn(entity) {
+            self.stores.visit_mut(&mut Discard {
+                entity,
+                components,
+                now: self.clock.now(),
+            });
+            self.leave_sets(entity, components);
+        }
+    }
+
+    /// Takes a removed entity out of its tags and its group.
+    fn leave_sets(&mut self, entity: Entity, bits: u32) {
+        if bits & TAGGED != 0 {
+            self.tags.forget(entity);
+        }
+        if bits & GROUPED != 0 {
+            self.groups.forget(entity);
         }
     }
 }
 
-struct Remove<'a> {
-    removed: &'a [(Entity, u32)],
-    present: u32,
+/// The bit of entities that are in a tree.
+pub(crate) const FAMILY: u32 = 1 << Family::KIND as u32;
+
+/// Drops the rows of one entity.
+struct Discard {
+    entity: Entity,
+    components: u32,
     now: Tick,
 }
 
-impl VisitorMut for Remove<'_> {
+impl VisitorMut for Discard {
+    #[inline]
     fn visit<C: Stored>(&mut self, columns: &mut Columns<C>) {
-        let bit = 1 << C::KIND as u32;
-        if self.present & bit == 0 {
-            return;
+        if self.components & (1 << C::KIND as u32) != 0 {
+            columns.set_now(self.now);
+            columns.discard(self.entity);
         }
-        columns.set_now(self.now);
-        for &(entity, bits) in self.removed {
-            if bits & bit != 0 {
-                columns.remove(entity);
-            }
+    }
+}
+
+/// Drops the rows of all entities of some slots.
+struct DiscardSlots {
+    slots: BitSet,
+    present: u32,
+    now: Tick,
+    scratch: Scratch,
+}
+
+impl VisitorMut for DiscardSlots {
+    fn visit<C: Stored>(&mut self, columns: &mut Columns<C>) {
+        if self.present & (1 << C::KIND as u32) != 0 {
+            columns.set_now(self.now);
+            columns.discard_slots(&self.slots, &mut self.scratch);
         }
     }
 }
@@ -169,6 +238,7 @@ mod tests {
         world.despawn(first);
         let row = |i| Transform::from_translation(Vec3::splat(i as f32));
         let entities = world.spawn_batch((0..100).map(|i| (row(i), MeshRenderer::default())));
+        let entities = entities.to_vec();
         assert_eq!(world.len(), 100);
         assert_eq!(world.columns::<WorldBounds>().len(), 100);
         assert_eq!(world.get::<Transform>(entities[40]), Some(row(40)));

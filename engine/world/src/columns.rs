@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::batches::{Batch, BatchMarker, SliceSet, run_batches};
+use crate::bits::{BitSet, Scratch};
 use crate::entity::Entity;
 use crate::merge::EntityMap;
 use crate::reflect::{ComponentInfo, FieldInfo};
@@ -42,6 +43,14 @@ pub trait Arrays: Clone + Default + std::fmt::Debug + Send + Sync {
     fn push(&mut self, row: Self::Row);
     /// Adds a row at the end whose handles come from another world.
     fn push_mapped(&mut self, row: Self::Row, map: &EntityMap);
+    /// Adds rows at the end and leaves the vector empty.
+    fn extend(&mut self, rows: &mut Vec<Self::Row>);
+    /// Adds copies of a row at the end.
+    fn extend_with(&mut self, row: Self::Row, count: usize);
+    /// Drops a row and moves the last one into its place.
+    fn discard(&mut self, row: usize);
+    /// Moves each source row to a hole, and drops all rows from `len` on.
+    fn fill_holes(&mut self, moves: &[(u32, u32)], len: usize);
     /// Takes a row out and moves the last one into its place.
     fn swap_remove(&mut self, row: usize) -> Self::Row;
     /// A copy of a row.
@@ -59,8 +68,15 @@ pub trait Arrays: Clone + Default + std::fmt::Debug + Send + Sync {
     /// Writes one field of one row.
     ///
     /// # Errors
-    /// The value is of the wrong kind or outside the field's range.
-    fn set_field(&mut self, row: usize, field: usize, value: &Value) -> Result<(), String>;
+    /// The value is of the wrong kind or, if that is to be checked, outside the
+    /// field's range.
+    fn set_field(
+        &mut self,
+        row: usize,
+        field: usize,
+        value: &Value,
+        check: bool,
+    ) -> Result<(), String>;
     /// Bytes that the arrays occupy, spare room included.
     fn capacity_bytes(&self) -> usize;
 }
@@ -280,6 +296,43 @@ impl<C: Component> Columns<C> {
         self.ticks.mark_all(self.now);
     }
 
+    /// Adds rows for entities that are known to have none. The vector is left
+    /// empty.
+    pub(crate) fn extend(&mut self, entities: &[Entity], rows: &mut Vec<C>) {
+        self.map.extend(entities);
+        self.ticks.extend(entities.len(), self.now);
+        self.arrays.extend(rows);
+    }
+
+    /// Like [`Columns::extend`], with default rows.
+    pub(crate) fn extend_default(&mut self, entities: &[Entity]) {
+        self.map.extend(entities);
+        self.ticks.extend(entities.len(), self.now);
+        self.arrays.extend_with(C::default(), entities.len());
+    }
+
+    /// Drops an entity's row, if it has one.
+    #[inline]
+    pub(crate) fn discard(&mut self, entity: Entity) {
+        if let Some(row) = self.map.swap_remove(entity) {
+            self.ticks.swap_remove(row, self.now);
+            self.arrays.discard(row);
+        }
+    }
+
+    /// Drops the rows of many entities. Memory is walked in order, which makes it
+    /// many times faster than one by one.
+    pub(crate) fn discard_slots(&mut self, slots: &BitSet, scratch: &mut Scratch) {
+        if self.map.swap_remove_slots(slots, scratch) {
+            let len = self.map.entities().len();
+            self.arrays.fill_holes(&scratch.moves, len);
+            for &(hole, _) in &scratch.moves {
+                self.ticks.mark(hole as usize, self.now);
+            }
+            self.ticks.truncate(len, self.now);
+        }
+    }
+
     pub(crate) fn mark(&mut self, entity: Entity) {
         if let Some(row) = self.row_of(entity) {
             self.ticks.mark(row, self.now);
@@ -291,8 +344,9 @@ impl<C: Component> Columns<C> {
         row: usize,
         field: usize,
         value: &Value,
+        check: bool,
     ) -> Result<(), String> {
-        self.arrays.set_field(row, field, value)?;
+        self.arrays.set_field(row, field, value, check)?;
         self.ticks.mark(row, self.now);
         Ok(())
     }

@@ -110,6 +110,27 @@ macro_rules! component {
                     $($crate::value::FieldType::map_entities(&mut row.$field, map);)*
                     self.push(row);
                 }
+                fn extend(&mut self, rows: &mut Vec<$name>) {
+                    $(self.$field.extend(rows.iter_mut().map(|row| {
+                        $crate::value::FieldType::take(&mut row.$field)
+                    }));)*
+                    rows.clear();
+                }
+                fn extend_with(&mut self, row: $name, count: usize) {
+                    $(self.$field.resize(self.$field.len() + count, row.$field);)*
+                }
+                #[inline]
+                fn discard(&mut self, row: usize) {
+                    $(self.$field.swap_remove(row);)*
+                }
+                fn fill_holes(&mut self, moves: &[(u32, u32)], len: usize) {
+                    $(
+                        for &(hole, source) in moves {
+                            self.$field.swap(hole as usize, source as usize);
+                        }
+                        self.$field.truncate(len);
+                    )*
+                }
                 #[inline]
                 fn swap_remove(&mut self, row: usize) -> $name {
                     $name { $($field: self.$field.swap_remove(row),)* }
@@ -137,17 +158,19 @@ macro_rules! component {
                     ];
                     Some(fields.get(field)?(self, row))
                 }
-                fn set_field(&mut self, row: usize, field: usize, value: &$crate::value::Value) -> Result<(), String> {
-                    type Set = fn(&mut Arrays, usize, &$crate::value::Value, &$crate::reflect::FieldInfo) -> Result<(), String>;
-                    let fields: &[Set] = &[$(|arrays, row, value, info| {
+                fn set_field(&mut self, row: usize, field: usize, value: &$crate::value::Value, check: bool) -> Result<(), String> {
+                    type Set = fn(&mut Arrays, usize, &$crate::value::Value, Option<&$crate::reflect::FieldInfo>) -> Result<(), String>;
+                    let fields: &[Set] = &[$(|arrays, row, value, range_of| {
                         let value: $type = $crate::value::FieldType::from_value(value)?;
-                        $crate::columns::check_range(info, $crate::value::FieldType::numbers(&value))?;
+                        if let Some(info) = range_of {
+                            $crate::columns::check_range(info, $crate::value::FieldType::numbers(&value))?;
+                        }
                         arrays.$field[row] = value;
                         Ok(())
                     },)*];
                     let info = <$name as $crate::columns::Component>::INFO.fields;
                     match (fields.get(field), info.get(field)) {
-                        (Some(set), Some(info)) => set(self, row, value, info),
+                        (Some(set), Some(info)) => set(self, row, value, check.then_some(info)),
                         _ => Err(format!("there is no field number {field}")),
                     }
                 }
@@ -290,6 +313,11 @@ macro_rules! components {
                 &mut stores.$module
             }
             $(
+                fn extend_follower(stores: &mut Stores, entities: &[$crate::entity::Entity], now: $crate::ticks::Tick) {
+                    let columns = <$follower as $crate::stores::Stored>::columns_mut(stores);
+                    columns.set_now(now);
+                    columns.extend_default(entities);
+                }
                 fn push_follower(stores: &mut Stores, entity: $crate::entity::Entity, now: $crate::ticks::Tick) {
                     let columns = <$follower as $crate::stores::Stored>::columns_mut(stores);
                     columns.set_now(now);
@@ -306,7 +334,7 @@ macro_rules! components {
                 fn remove_follower(stores: &mut Stores, entity: $crate::entity::Entity, now: $crate::ticks::Tick) {
                     let columns = <$follower as $crate::stores::Stored>::columns_mut(stores);
                     columns.set_now(now);
-                    columns.remove(entity);
+                    columns.discard(entity);
                 }
             )?
         })*

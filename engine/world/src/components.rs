@@ -319,6 +319,13 @@ components! {
         seed: u32 = 0, "", ANY;
     }
 
+    /// The entity's number in its scene file.
+    #[derive(Copy)]
+    scene_number: SceneNumber, Hidden {
+        /// The number, from 1. Zero stands for none.
+        number: u32 = 0, "", ANY;
+    }
+
     /// Components of a scene file that this version does not know, as they stood
     /// there.
     kept_text: KeptText, Hidden {

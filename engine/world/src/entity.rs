@@ -93,6 +93,11 @@ impl Entities {
         self.slots.len() - self.free.len() - self.retired
     }
 
+    /// Number of slots, taken or not.
+    pub fn slots(&self) -> usize {
+        self.slots.len()
+    }
+
     pub fn reserve(&mut self, additional: usize) {
         self.slots
             .reserve(additional.saturating_sub(self.free.len()));

@@ -75,6 +75,28 @@ impl World {
         field: &str,
         value: &Value,
     ) -> Result<(), WorldError> {
+        self.write_field(entity, component, field, value, true)
+    }
+
+    /// Like [`World::set_field`], but also with numbers outside the field's range.
+    pub(crate) fn set_field_unchecked(
+        &mut self,
+        entity: Entity,
+        component: &str,
+        field: &str,
+        value: &Value,
+    ) -> Result<(), WorldError> {
+        self.write_field(entity, component, field, value, false)
+    }
+
+    fn write_field(
+        &mut self,
+        entity: Entity,
+        component: &str,
+        field: &str,
+        value: &Value,
+        check: bool,
+    ) -> Result<(), WorldError> {
         let kind = component_named(component)?;
         let info = kind.info();
         let (index, field_info) = info.field(field).ok_or_else(|| WorldError::UnknownField {
@@ -92,6 +114,7 @@ impl World {
             entity,
             field: index,
             value,
+            check,
             now: self.clock.now(),
             outcome: None,
         };
@@ -142,6 +165,7 @@ struct Set<'a> {
     entity: Entity,
     field: usize,
     value: &'a Value,
+    check: bool,
     now: crate::ticks::Tick,
     /// `None` while the entity turns out to lack the component.
     outcome: Option<Result<(), String>>,
@@ -152,7 +176,7 @@ impl VisitorMut for Set<'_> {
         columns.set_now(self.now);
         self.outcome = columns
             .row_of(self.entity)
-            .map(|row| columns.set_field(row, self.field, self.value));
+            .map(|row| columns.set_field(row, self.field, self.value, self.check));
     }
 }
 

@@ -13,6 +13,7 @@
 
 mod access;
 mod batches;
+mod bits;
 mod bundle;
 mod clock;
 mod columns;
@@ -31,6 +32,7 @@ mod messages;
 pub mod query;
 pub mod reflect;
 mod row_map;
+pub mod scene_file;
 pub mod schedule;
 mod sets;
 mod stores;

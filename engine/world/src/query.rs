@@ -45,34 +45,42 @@ impl<const N: usize> Run<N> {
 
 /// Two to four components that are wanted together.
 pub trait Joined<const N: usize> {
+    /// Their columns.
+    type Columns<'a>: Copy;
+    /// The columns of a world.
+    fn columns(world: &World) -> Self::Columns<'_>;
     /// The order of rows in each component.
-    fn layouts(world: &World) -> [Layout; N];
+    fn layouts(columns: Self::Columns<'_>) -> [Layout; N];
     /// The entities of each component.
-    fn entities(world: &World) -> [&[Entity]; N];
+    fn entities<'a>(columns: Self::Columns<'a>) -> [&'a [Entity]; N];
     /// The row of an entity in each component, if it has them all.
-    fn rows(world: &World, entity: Entity) -> Option<[u32; N]>;
+    fn rows(columns: Self::Columns<'_>, entity: Entity) -> Option<[u32; N]>;
 }
 
 macro_rules! joined {
-    ($count:literal: $($component:ident),*) => {
+    ($count:literal: $($component:ident $columns:ident),*) => {
         impl<$($component: Stored),*> Joined<$count> for ($($component,)*) {
-            fn layouts(world: &World) -> [Layout; $count] {
-                [$(world.columns::<$component>().layout()),*]
+            type Columns<'a> = ($(&'a Columns<$component>,)*);
+            fn columns(world: &World) -> Self::Columns<'_> {
+                ($(world.columns::<$component>(),)*)
             }
-            fn entities(world: &World) -> [&[Entity]; $count] {
-                [$(world.columns::<$component>().entities()),*]
+            fn layouts(($($columns,)*): Self::Columns<'_>) -> [Layout; $count] {
+                [$($columns.layout()),*]
+            }
+            fn entities<'a>(($($columns,)*): Self::Columns<'a>) -> [&'a [Entity]; $count] {
+                [$($columns.entities()),*]
             }
             #[inline]
-            fn rows(world: &World, entity: Entity) -> Option<[u32; $count]> {
-                Some([$(world.columns::<$component>().row_of(entity)? as u32),*])
+            fn rows(($($columns,)*): Self::Columns<'_>, entity: Entity) -> Option<[u32; $count]> {
+                Some([$($columns.row_of(entity)? as u32),*])
             }
         }
     };
 }
 
-joined!(2: A, B);
-joined!(3: A, B, C);
-joined!(4: A, B, C, D);
+joined!(2: A a, B b);
+joined!(3: A a, B b, C c);
+joined!(4: A a, B b, C c, D d);
 
 /// The entities that have all components of a tuple, as runs of rows.
 ///
@@ -112,20 +120,30 @@ impl<T: Joined<N>, const N: usize> Default for Join<T, N> {
 impl<T: Joined<N>, const N: usize> Join<T, N> {
     /// The runs as they are now, in the order of the smallest component's rows.
     pub fn update(&mut self, world: &World) -> &[Run<N>] {
-        let layouts = T::layouts(world);
+        self.update_columns(T::columns(world))
+    }
+
+    /// Like [`Join::update`], for systems, which have columns and no world.
+    pub fn update_columns(&mut self, columns: T::Columns<'_>) -> &[Run<N>] {
+        let layouts = T::layouts(columns);
         if self.layouts != Some(layouts) {
             self.layouts = Some(layouts);
             self.runs.clear();
-            find_runs::<T, N>(world, &mut self.runs);
+            find_runs::<T, N>(columns, &mut self.runs);
         }
+        &self.runs
+    }
+
+    /// The runs of the last update.
+    pub fn runs(&self) -> &[Run<N>] {
         &self.runs
     }
 }
 
 /// Extends the last run as long as every component's next row belongs to the next
 /// entity, and starts a new one otherwise.
-fn find_runs<T: Joined<N>, const N: usize>(world: &World, runs: &mut Vec<Run<N>>) {
-    let entities = T::entities(world);
+fn find_runs<T: Joined<N>, const N: usize>(columns: T::Columns<'_>, runs: &mut Vec<Run<N>>) {
+    let entities = T::entities(columns);
     let Some(smallest) = entities.into_iter().min_by_key(|entities| entities.len()) else {
         return;
     };
@@ -140,7 +158,7 @@ fn find_runs<T: Joined<N>, const N: usize>(world: &World, runs: &mut Vec<Run<N>>
                 continue;
             }
         }
-        if let Some(first) = T::rows(world, entity) {
+        if let Some(first) = T::rows(columns, entity) {
             runs.push(Run { first, len: 1 });
         }
     }
@@ -161,15 +179,16 @@ impl World {
     ///     println!("{entity} shines with {} from {}", light.intensity, place.translation);
     /// }
     /// ```
-    pub fn query<T: Joined<N>, const N: usize>(
-        &self,
-    ) -> impl Iterator<Item = (Entity, [u32; N])> + '_ {
-        let entities = T::entities(self);
+    pub fn query<'a, T: Joined<N> + 'a, const N: usize>(
+        &'a self,
+    ) -> impl Iterator<Item = (Entity, [u32; N])> + 'a {
+        let columns = T::columns(self);
+        let entities = T::entities(columns);
         let smallest = entities.into_iter().min_by_key(|entities| entities.len());
         smallest
             .unwrap_or_default()
             .iter()
-            .filter_map(|&entity| Some((entity, T::rows(self, entity)?)))
+            .filter_map(move |&entity| Some((entity, T::rows(columns, entity)?)))
     }
 
     /// Sorts the rows of `B` so that entities that also have an `A` come first
@@ -245,7 +264,9 @@ mod tests {
     #[test]
     fn aligned_components_join_in_one_run() {
         let mut world = World::new();
-        let entities = world.spawn_batch((0..500).map(|_| (Transform::default(),)));
+        let entities = world
+            .spawn_batch((0..500).map(|_| (Transform::default(),)))
+            .to_vec();
         for &entity in entities.iter().rev() {
             world.insert(entity, MeshRenderer::default()).unwrap();
         }

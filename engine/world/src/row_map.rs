@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::bits::{BitSet, Scratch};
 use crate::entity::Entity;
 
 /// Names one order of rows. While a set of columns reports the same layout, the
@@ -90,6 +91,57 @@ impl RowMap {
         self.rows[slot] = self.entities.len() as u32;
         self.entities.push(entity);
         self.layout.version += 1;
+    }
+
+    /// Adds rows at the end. The entities must not have any.
+    pub fn extend(&mut self, entities: &[Entity]) {
+        for (entity, row) in entities.iter().zip(self.entities.len() as u32..) {
+            let slot = entity.index() as usize;
+            if slot == self.rows.len() {
+                self.rows.push(row);
+            } else {
+                if slot > self.rows.len() {
+                    self.rows.resize(slot + 1, NO_ROW);
+                }
+                self.rows[slot] = row;
+            }
+        }
+        self.entities.extend_from_slice(entities);
+        self.layout.version += 1;
+    }
+
+    /// Removes the rows of all entities of some slots: those that lie at the end
+    /// move, in order, into the holes before them. Leaves the moves (hole and
+    /// source) in `scratch`. False if there was no row to remove.
+    pub fn swap_remove_slots(&mut self, slots: &BitSet, scratch: &mut Scratch) -> bool {
+        let holes = &mut scratch.holes;
+        holes.reset(self.entities.len());
+        let mut count = 0;
+        for slot in slots.iter() {
+            let Some(row) = self.rows.get_mut(slot) else {
+                break;
+            };
+            if *row != NO_ROW {
+                holes.insert(*row as usize);
+                *row = NO_ROW;
+                count += 1;
+            }
+        }
+        let len = self.entities.len() - count;
+        let sources = (len..self.entities.len()).filter(|&row| !holes.contains(row));
+        let moves = holes.iter().take_while(|&hole| hole < len).zip(sources);
+        scratch.moves.clear();
+        scratch
+            .moves
+            .extend(moves.map(|(hole, source)| (hole as u32, source as u32)));
+        for &(hole, source) in &scratch.moves {
+            let entity = self.entities[source as usize];
+            self.entities[hole as usize] = entity;
+            self.rows[entity.index() as usize] = hole;
+        }
+        self.entities.truncate(len);
+        self.layout.version += 1;
+        count > 0
     }
 
     /// Removes an entity's row by moving the last one into its place, and

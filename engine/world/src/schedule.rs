@@ -349,7 +349,9 @@ mod tests {
     #[test]
     fn a_system_sees_what_changed_since_its_last_run() {
         let mut world = World::new();
-        let entities = world.spawn_batch((0..100).map(|_| (Light::default(),)));
+        let entities = world
+            .spawn_batch((0..100).map(|_| (Light::default(),)))
+            .to_vec();
         let (sender, counts) = std::sync::mpsc::channel();
         let mut schedule = Schedule::default();
         schedule.add::<(Light,), ()>("watch", move |(lights,), (), context| {

@@ -21,6 +21,8 @@ pub trait Stored: Component {
     fn columns_mut(stores: &mut Stores) -> &mut Columns<Self>;
     /// Adds the row of the computed component that follows this one.
     fn push_follower(_stores: &mut Stores, _entity: Entity, _now: Tick) {}
+    /// Adds rows of the computed component that follows this one.
+    fn extend_follower(_stores: &mut Stores, _entities: &[Entity], _now: Tick) {}
     /// Makes room in the columns of the computed component that follows this one.
     fn reserve_follower(_stores: &mut Stores, _additional: usize) {}
     /// Puts the rows of the computed component that follows this one into a new

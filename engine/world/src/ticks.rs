@@ -34,7 +34,10 @@ pub(crate) const BLOCK: usize = 256;
 /// The ticks of one set of columns.
 #[derive(Clone, Debug)]
 pub(crate) struct ChangeTicks {
-    rows: Vec<Tick>,
+    /// Numbers instead of ticks, so that room for more rows can be zeroed memory.
+    rows: Vec<u32>,
+    /// Number of rows; what follows in `rows` is room.
+    len: usize,
     /// The latest tick of every run of `BLOCK` rows.
     blocks: Vec<Tick>,
     /// All rows changed at this tick: marks a whole column without a loop.
@@ -47,6 +50,7 @@ impl Default for ChangeTicks {
     fn default() -> Self {
         Self {
             rows: Vec::new(),
+            len: 0,
             blocks: Vec::new(),
             all: Tick::START,
             last: Tick::START,
@@ -55,13 +59,24 @@ impl Default for ChangeTicks {
 }
 
 impl ChangeTicks {
+    /// Makes room. The first room is zeroed memory, which the allocator gives for
+    /// nothing until it is written.
     pub fn reserve(&mut self, additional: usize) {
-        self.rows.reserve(additional);
+        if self.rows.is_empty() {
+            self.rows = vec![0; additional];
+        } else {
+            self.rows
+                .reserve((self.len + additional).saturating_sub(self.rows.len()));
+        }
     }
 
     pub fn push(&mut self, now: Tick) {
-        self.rows.push(now);
-        let block = (self.rows.len() - 1) / BLOCK;
+        match self.rows.get_mut(self.len) {
+            Some(row) => *row = now.0,
+            None => self.rows.push(now.0),
+        }
+        let block = self.len / BLOCK;
+        self.len += 1;
         if block == self.blocks.len() {
             self.blocks.push(now);
         } else {
@@ -70,18 +85,43 @@ impl ChangeTicks {
         self.last = now;
     }
 
-    /// Follows a swap-remove: the row that took the place has changed there.
-    pub fn swap_remove(&mut self, row: usize, now: Tick) {
-        self.rows.pop();
-        if row < self.rows.len() {
-            self.mark(row, now);
+    /// Adds rows that are written now. Where the tick of all rows says so, the
+    /// rows' own ticks are left alone.
+    pub fn extend(&mut self, count: usize, now: Tick) {
+        if self.len == 0 {
+            self.all = now;
         }
-        self.blocks.truncate(self.rows.len().div_ceil(BLOCK));
+        let end = self.len + count;
+        if end > self.rows.len() {
+            self.rows.resize(end, now.0);
+        }
+        if self.all != now {
+            self.rows[self.len..end].fill(now.0);
+        }
+        let first = self.len / BLOCK;
+        self.len = end;
+        self.blocks.resize(end.div_ceil(BLOCK), now);
+        self.blocks[first..].fill(now);
         self.last = now;
     }
 
+    /// Drops the rows from `len` on.
+    pub fn truncate(&mut self, len: usize, now: Tick) {
+        self.len = len;
+        self.blocks.truncate(len.div_ceil(BLOCK));
+        self.last = now;
+    }
+
+    /// Follows a swap-remove: the row that took the place has changed there.
+    pub fn swap_remove(&mut self, row: usize, now: Tick) {
+        self.truncate(self.len - 1, now);
+        if row < self.len {
+            self.mark(row, now);
+        }
+    }
+
     pub fn mark(&mut self, row: usize, now: Tick) {
-        self.rows[row] = now;
+        self.rows[row] = now.0;
         self.blocks[row / BLOCK] = now;
         self.last = now;
     }
@@ -96,7 +136,7 @@ impl ChangeTicks {
     }
 
     pub fn is_after(&self, row: usize, since: Tick) -> bool {
-        self.rows[row].is_after(since) || self.all.is_after(since)
+        Tick(self.rows[row]).is_after(since) || self.all.is_after(since)
     }
 
     /// Rows of a range that were written after `since`, in ascending order.
@@ -112,14 +152,14 @@ impl ChangeTicks {
             .flat_map(move |block| {
                 let first = range.start.max(block * BLOCK);
                 let end = range.end.min((block + 1) * BLOCK);
-                (first..end).filter(move |&row| everything || self.rows[row].is_after(since))
+                (first..end).filter(move |&row| everything || Tick(self.rows[row]).is_after(since))
             })
     }
 
     /// The ticks of all rows, to be split among threads at whole blocks.
     pub fn marks(&mut self) -> Marks<'_> {
         Marks {
-            rows: &mut self.rows,
+            rows: &mut self.rows[..self.len],
             blocks: &mut self.blocks,
         }
     }
@@ -129,6 +169,7 @@ impl ChangeTicks {
     }
 
     pub fn shrink_to_fit(&mut self) {
+        self.rows.truncate(self.len);
         self.rows.shrink_to_fit();
         self.blocks.shrink_to_fit();
     }
@@ -140,14 +181,14 @@ impl ChangeTicks {
 
 /// The ticks of a run of rows that starts and ends with whole blocks.
 pub(crate) struct Marks<'a> {
-    rows: &'a mut [Tick],
+    rows: &'a mut [u32],
     blocks: &'a mut [Tick],
 }
 
 impl Marks<'_> {
     #[inline]
     pub fn mark(&mut self, row: usize, now: Tick) {
-        self.rows[row] = now;
+        self.rows[row] = now.0;
         self.blocks[row / BLOCK] = now;
     }
 

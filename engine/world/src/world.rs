@@ -1,8 +1,10 @@
 //! The world: entities and the columns of their components.
 
+use crate::access::WriteSet;
+use crate::bundle::FAMILY;
 use crate::clock::Clock;
 use crate::columns::Columns;
-use crate::components::{Family, Name, Stores};
+use crate::components::{ComponentKind, MeshRenderer, Name, Stores};
 use crate::entity::{Entities, Entity};
 use crate::error::WorldError;
 use crate::reflect::Role;
@@ -58,7 +60,7 @@ impl World {
         if !self.contains(entity) {
             return false;
         }
-        if self.has::<Family>(entity) {
+        if self.entities.components(entity) & FAMILY != 0 {
             self.unlink(entity);
             for descendant in self.descendants(entity) {
                 self.free(descendant);
@@ -66,13 +68,6 @@ impl World {
         }
         self.free(entity);
         true
-    }
-
-    /// Removes one entity's components and gives its slot back.
-    fn free(&mut self, entity: Entity) {
-        if let Some(components) = self.entities.despawn(entity) {
-            self.free_all(&[(entity, components)]);
-        }
     }
 
     /// Whether the handle's entity exists.
@@ -137,6 +132,10 @@ impl World {
         if let Some(bits) = self.entities.components_mut(entity) {
             *bits &= !C::BITS;
         }
+        if C::KIND == ComponentKind::Transform {
+            // Its bounds stand at the origin now, and no matrix row tells so.
+            self.columns_mut::<MeshRenderer>().mark(entity);
+        }
         Some(row)
     }
 
@@ -185,6 +184,36 @@ impl World {
         let columns = C::columns_mut(&mut self.stores);
         columns.set_now(now);
         columns
+    }
+
+    /// Lends some columns to write while the others are read, which a system that
+    /// combines components needs. `W` is a tuple of the components to write; to
+    /// the function the world shows no rows of those.
+    ///
+    /// ```
+    /// # use lightbench_world::{Join, Transform, Velocity, World};
+    /// # let mut world = World::new();
+    /// # world.spawn_batch([(Transform::default(), Velocity::default())]);
+    /// let mut moving = Join::<(Transform, Velocity), 2>::default();
+    /// moving.update(&world);
+    /// world.write::<(Transform,), _>(|world, (places,)| {
+    ///     let places = places.slices_mut().translation;
+    ///     let speeds = world.columns::<Velocity>().linear();
+    ///     for run in moving.runs() {
+    ///         for (place, speed) in places[run.rows(0)].iter_mut().zip(&speeds[run.rows(1)]) {
+    ///             *place += *speed / 60.0;
+    ///         }
+    ///     }
+    /// });
+    /// ```
+    pub fn write<W: WriteSet, T>(
+        &mut self,
+        function: impl FnOnce(&World, &mut W::Columns) -> T,
+    ) -> T {
+        let mut columns = W::take(self);
+        let result = function(self, &mut columns);
+        W::put(columns, self);
+        result
     }
 
     /// Takes one component's columns out, so that they can be written while the

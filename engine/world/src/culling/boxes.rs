@@ -52,7 +52,7 @@ impl Frustum {
             let reach = plane.normal.x.abs() * half[0]
                 + plane.normal.y.abs() * half[1]
                 + plane.normal.z.abs() * half[2];
-            inside &= plane.distance_to(center[0], center[1], center[2]) + reach >= 0.0;
+            inside &= plane.distance_to(center[0], center[1], center[2]) >= -reach;
         }
         inside
     }

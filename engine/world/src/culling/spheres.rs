@@ -45,7 +45,7 @@ impl Frustum {
     #[inline(always)]
     pub fn intersects_sphere(&self, x: f32, y: f32, z: f32, radius: f32) -> bool {
         let [a, b, c, d, e, f] = &self.planes;
-        let inside = |plane: &super::Plane| plane.distance_to(x, y, z) + radius >= 0.0;
+        let inside = |plane: &super::Plane| plane.distance_to(x, y, z) >= -radius;
         inside(a) & inside(b) & inside(c) & inside(d) & inside(e) & inside(f)
     }
 }

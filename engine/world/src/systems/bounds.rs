@@ -2,6 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 
+use crate::columns::Columns;
 use crate::components::{MeshRenderer, WorldBounds, WorldMatrix};
 use crate::ticks::Tick;
 use crate::world::World;
@@ -37,31 +38,42 @@ pub fn update_bounds(world: &mut World, mesh_bounds: &[MeshBounds]) {
         mesh_bounds.clone_into(&mut state.meshes);
         state.seen = Tick::START;
     }
-    let renderers = world.columns::<MeshRenderer>();
-    let matrices = world.columns::<WorldMatrix>();
-    if renderers.any_changed_since(state.seen) || matrices.any_changed_since(state.seen) {
-        let moved = matrices
-            .changed_since(state.seen)
-            .filter_map(|row| renderers.row_of(matrices.entities()[row]));
-        let rows: Vec<usize> = renderers.changed_since(state.seen).chain(moved).collect();
-        let updates: Vec<(usize, WorldBounds)> = rows
-            .into_iter()
-            .map(|row| {
-                let mesh = renderers.mesh()[row].0 as usize;
-                let matrix = matrices
-                    .row_of(renderers.entities()[row])
-                    .map_or(Affine3A::IDENTITY, |row| matrices.matrix()[row]);
-                let bounds = mesh_bounds.get(mesh).copied().unwrap_or_default();
-                (row, world_bounds(&bounds, &matrix))
-            })
-            .collect();
+    let seen = state.seen;
+    let changed = world.columns::<MeshRenderer>().any_changed_since(seen)
+        || world.columns::<WorldMatrix>().any_changed_since(seen);
+    if changed {
         state.seen = world.observe();
-        let columns = world.columns_mut::<WorldBounds>();
-        for (row, bounds) in updates {
-            columns.set_row(row, bounds);
-        }
+        let mut output = world.take_columns::<WorldBounds>();
+        update_changed(world, &mut output, mesh_bounds, seen);
+        world.put_columns(output);
     }
     world.systems.bounds = state;
+}
+
+fn update_changed(
+    world: &World,
+    output: &mut Columns<WorldBounds>,
+    mesh_bounds: &[MeshBounds],
+    seen: Tick,
+) {
+    let renderers = world.columns::<MeshRenderer>();
+    let matrices = world.columns::<WorldMatrix>();
+    let mut update = |row: usize, matrix: Option<usize>| {
+        let mesh = renderers.mesh()[row].0 as usize;
+        let matrix = matrix.map_or(Affine3A::IDENTITY, |row| matrices.matrix()[row]);
+        let bounds = mesh_bounds.get(mesh).copied().unwrap_or_default();
+        output.set_row(row, world_bounds(&bounds, &matrix));
+    };
+    for row in renderers.changed_since(seen) {
+        update(row, matrices.row_of(renderers.entities()[row]));
+    }
+    for matrix in matrices.changed_since(seen) {
+        if let Some(row) = renderers.row_of(matrices.entities()[matrix])
+            && !renderers.row_changed_since(row, seen)
+        {
+            update(row, Some(matrix));
+        }
+    }
 }
 
 /// The bounds of a mesh after an affine map. The box is the tightest one around
@@ -195,6 +207,11 @@ mod tests {
         renderer.mesh = MeshId(99);
         world.set(entity, renderer).unwrap();
         assert_eq!(run(&mut world, &[CUBE, CUBE]).1.radius, 0.0);
+        world.remove::<Transform>(entity);
+        renderer.mesh = MeshId(0);
+        world.set(other, renderer).unwrap();
+        let (written, bounds) = run(&mut world, &[CUBE, CUBE]);
+        assert_eq!((written, bounds.y), (2, 0.0));
         assert!(world.despawn(other));
         assert_eq!(world.columns::<WorldBounds>().len(), 1);
     }

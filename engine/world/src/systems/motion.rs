@@ -4,17 +4,25 @@ use glam::{Quat, Vec3};
 
 use crate::columns::Columns;
 use crate::components::{Repeat, RigidAnimation, Transform, Velocity};
+use crate::query::Join;
 use crate::schedule::Schedule;
 use crate::world::World;
 
 use super::update_world_matrices;
 
+/// Entities that move evenly, as runs of rows.
+type Moving = Join<(Velocity, Transform), 2>;
+
 /// A schedule of all systems that move entities, world matrices last.
 pub fn motion_schedule() -> Schedule {
     let mut schedule = Schedule::default();
-    schedule.add::<(Velocity,), (Transform,)>("velocity", |(velocities,), (places,), context| {
-        integrate(velocities, places, context.step);
-    });
+    let mut moving = Moving::default();
+    schedule.add::<(Velocity,), (Transform,)>(
+        "velocity",
+        move |(velocities,), (places,), context| {
+            integrate(&mut moving, velocities, places, context.step);
+        },
+    );
     schedule.add::<(RigidAnimation,), (Transform,)>(
         "animation",
         |(animations,), (places,), context| pose(animations, places, context.time),
@@ -25,36 +33,43 @@ pub fn motion_schedule() -> Schedule {
 
 /// Moves every entity with a Velocity and a Transform by a step in seconds.
 pub fn move_by_velocity(world: &mut World, step: f32) {
-    let mut places = world.take_columns::<Transform>();
-    integrate(world.columns::<Velocity>(), &mut places, step);
-    world.put_columns(places);
+    world.write::<(Transform,), _>(|world, (places,)| {
+        let velocities = world.columns::<Velocity>();
+        integrate(&mut Moving::default(), velocities, places, step);
+    });
 }
 
 /// Puts every entity with a RigidAnimation and a Transform where its curves say
 /// that it is at a time in seconds.
 pub fn animate(world: &mut World, time: f64) {
-    let mut places = world.take_columns::<Transform>();
-    pose(world.columns::<RigidAnimation>(), &mut places, time);
-    world.put_columns(places);
+    world.write::<(Transform,), _>(|world, (places,)| {
+        pose(world.columns::<RigidAnimation>(), places, time);
+    });
 }
 
-fn integrate(velocities: &Columns<Velocity>, places: &mut Columns<Transform>, step: f32) {
+fn integrate(
+    moving: &mut Moving,
+    velocities: &Columns<Velocity>,
+    places: &mut Columns<Transform>,
+    step: f32,
+) {
+    moving.update_columns((velocities, places));
     let input = velocities.slices();
-    let rows: Vec<Option<usize>> = Vec::new();
-    drop(rows);
-    for (row, &entity) in velocities.entities().iter().enumerate() {
-        let (linear, angular) = (input.linear[row], input.angular[row]);
-        if linear == Vec3::ZERO && angular == Vec3::ZERO {
-            continue;
-        }
-        if let Some(place) = places.row_of(entity) {
-            let (slices, mut marker) = places.slices_and_marker();
-            slices.translation[place] += linear * step;
-            if angular != Vec3::ZERO {
-                let turn = Quat::from_scaled_axis(angular * step);
-                slices.rotation[place] = (turn * slices.rotation[place]).normalize();
+    let (output, mut marker) = places.slices_and_marker();
+    for run in moving.runs() {
+        let velocities = input.linear[run.rows(0)]
+            .iter()
+            .zip(&input.angular[run.rows(0)]);
+        for (place, (linear, angular)) in run.rows(1).zip(velocities) {
+            if *linear != Vec3::ZERO {
+                output.translation[place] += *linear * step;
+                marker.mark(place);
             }
-            marker.mark(place);
+            if *angular != Vec3::ZERO {
+                let turn = Quat::from_scaled_axis(*angular * step);
+                output.rotation[place] = (turn * output.rotation[place]).normalize();
+                marker.mark(place);
+            }
         }
     }
 }
