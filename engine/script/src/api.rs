@@ -81,6 +81,38 @@ impl<'a> Api<'a> {
         self.register(&entry.name.clone(), &types, entry, 0, body);
     }
 
+    /// Registers a function in place of Rhai's own of the same name, which is bound to the types
+    /// that it takes: one copy for each mixture of whole numbers and others.
+    pub(crate) fn overload(
+        &mut self,
+        form: &str,
+        about: &'static str,
+        body: impl Fn(&mut Arguments) -> Result<f64, Mistake> + Send + Sync + 'static,
+    ) {
+        let entry = Arc::new(Entry::new(None, form, false, about));
+        self.names.add(Entry::clone(&entry));
+        let body = Arc::new(body);
+        let count = entry.arguments.len();
+        let kinds = [
+            TypeId::of::<f64>(),
+            TypeId::of::<i64>(),
+            TypeId::of::<Dynamic>(),
+        ];
+        for mixture in 0..kinds.len().pow(count as u32) {
+            let types: Vec<TypeId> = (0..count)
+                .map(|index| kinds[mixture / kinds.len().pow(index as u32) % kinds.len()])
+                .collect();
+            let body = Arc::clone(&body);
+            self.raw(
+                &entry.name.clone(),
+                &types,
+                Arc::clone(&entry),
+                0,
+                move |a| body(a),
+            );
+        }
+    }
+
     /// Registers a method of `T` by its form, as in `range(metres)`.
     pub(crate) fn method<T: ScriptType, R: Variant + Clone>(
         &mut self,

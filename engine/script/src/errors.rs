@@ -187,7 +187,7 @@ impl Explainer<'_> {
             ))
         } else if let Some(hint) = suggestion(name, known) {
             mistake.with_hint(hint)
-        } else if let Some(hint) = self.names.near_function(name, &source.functions) {
+        } else if let Some(hint) = self.names.near_function(name, &self.sources.functions()) {
             mistake.with_hint(hint)
         } else {
             mistake.with_hint(format!(

@@ -11,7 +11,7 @@ use rhai::{
     AST, Dynamic, Engine, EvalAltResult, ImmutableString, Module, ModuleResolver, Scope, Token,
 };
 
-use crate::api::{Api, place};
+use crate::api::{Api, Mistake, place};
 use crate::compile::Compiler;
 use crate::limits::{self, Limits, Watch};
 use crate::log::Log;
@@ -33,7 +33,7 @@ pub(crate) struct Host {
 /// What a kind of script has beyond mathematics.
 pub(crate) struct Extras<'a> {
     /// Registers its functions.
-    pub(crate) register: &'a mut dyn FnMut(&mut Api, &Arc<Watch>),
+    pub(crate) register: &'a mut dyn FnMut(&mut Api, &Arc<Watch>, &Log),
     /// Its global variables.
     pub(crate) globals: Vec<(&'static str, Dynamic)>,
 }
@@ -48,6 +48,7 @@ impl Host {
         let log = Log::default();
         listen(&mut engine, &log);
         map_words(&mut engine);
+        take_away(&mut engine);
         show_constants(&mut engine);
 
         let mut names = Names::default();
@@ -59,7 +60,7 @@ impl Host {
         color::register(&mut api);
         random::register(&mut api);
         noise::register(&mut api);
-        (extras.register)(&mut api, &watch);
+        (extras.register)(&mut api, &watch, &log);
 
         let mut module = Module::new();
         let mut globals = Vec::new();
@@ -107,6 +108,15 @@ impl Host {
         self.engine
             .eval_ast_with_scope::<Dynamic>(&mut Scope::new(), ast)
             .map_err(|error| self.compiler.explain(&error, path))
+    }
+
+    /// Compiles a text of the program's own, whose names are known when it runs.
+    pub(crate) fn compile_loosely(&self, scope: &Scope, text: &str) -> Result<AST, String> {
+        let mut engine = Engine::new_raw();
+        engine.set_strict_variables(false);
+        engine
+            .compile_with_scope(scope, text)
+            .map_err(|error| error.to_string())
     }
 
     /// The files that were read, with the first.
@@ -198,6 +208,22 @@ fn listen(engine: &mut Engine, log: &Log) {
     engine.on_debug(move |text, source, position| {
         log.add(place(source, position), text.to_owned());
     });
+}
+
+/// Takes away what Rhai brings and a scene must not have: it waits, or differs from run to run.
+fn take_away(engine: &mut Engine) {
+    engine.disable_symbol("eval");
+    let no_clock = || -> Result<Dynamic, Box<EvalAltResult>> {
+        Err(
+            Mistake::new("scripts have no clock, so that every run is the same")
+                .with_hint("`fn update(time, dt)` is given the time")
+                .into(),
+        )
+    };
+    engine
+        .register_fn("timestamp", no_clock)
+        .register_fn("sleep", move |_: i64| no_clock())
+        .register_fn("sleep", move |_: f64| no_clock());
 }
 
 /// Lets scripts use two words that Rhai keeps for itself: `spawn(…)`, and `.switch(…)` after a dot.

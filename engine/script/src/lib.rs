@@ -2,6 +2,7 @@
 //!
 //! - [`load_pipeline`] evaluates a file of `scripts/pipelines/` into a
 //!   [`PipelineDesc`](lightbench_render::PipelineDesc).
+//! - [`load_scene`] runs a file of `scripts/scenes/` into a [`Scene`], whose script may move it.
 //!
 //! Scripts are not trusted. They reach no file outside of the project, and [`Limits`] bound their
 //! time, their memory and the size of everything they make. Every mistake is a
@@ -14,6 +15,8 @@ mod color;
 mod compile;
 mod errors;
 mod host;
+#[cfg(test)]
+mod hostile_tests;
 mod limits;
 mod log;
 mod math;
@@ -23,13 +26,20 @@ mod noise;
 mod pipeline;
 mod random;
 mod resolver;
+mod scene;
 mod settings;
 mod sources;
 mod syntax;
+#[cfg(test)]
+mod testing;
 
 pub use limits::Limits;
 pub use log::LogLine;
 pub use memory::CountingAllocator;
 pub use names::{Entry, Names};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
+pub use scene::{
+    SCENES, Scene, SceneEntry, SceneParameter, SceneParameterKind, list_scenes, load_scene,
+    load_scene_within, scene_names,
+};
 pub use settings::{SettingValue, Settings};

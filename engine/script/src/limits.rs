@@ -3,10 +3,11 @@
 //! Scripts come from strangers. Rhai itself bounds single values and counts operations; the watch
 //! adds the two things that it can't see: the clock, and the memory of everything together.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicI64, AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
+use lightbench_assets::Progress;
 use rhai::{Dynamic, Engine};
 
 use crate::memory;
@@ -90,7 +91,8 @@ pub(crate) struct Watch {
     /// Live bytes of the thread when the run began.
     bytes_at_start: AtomicI64,
     memory_bytes: i64,
-    cancelled: AtomicBool,
+    /// Through which the host stops the run.
+    progress: OnceLock<Progress>,
 }
 
 impl Watch {
@@ -100,7 +102,7 @@ impl Watch {
             deadline: AtomicU64::new(u64::MAX),
             bytes_at_start: AtomicI64::new(0),
             memory_bytes: i64::try_from(limits.memory_bytes).unwrap_or(i64::MAX),
-            cancelled: AtomicBool::new(false),
+            progress: OnceLock::new(),
         })
     }
 
@@ -126,9 +128,10 @@ impl Watch {
         result
     }
 
-    /// Makes the run end at its next operation.
-    pub(crate) fn cancel(&self) {
-        self.cancelled.store(true, Ordering::Relaxed);
+    /// Ends runs when `progress` is cancelled.
+    pub(crate) fn stop_with(&self, progress: &Progress) {
+        // The first one stays; there is one for each engine.
+        let _ = self.progress.set(progress.clone());
     }
 
     fn check(&self, operations: u64) -> Option<Stop> {
@@ -138,7 +141,7 @@ impl Watch {
         }
         // Asking for the time costs more than an operation.
         if operations.is_multiple_of(128) {
-            if self.cancelled.load(Ordering::Relaxed) {
+            if self.progress.get().is_some_and(Progress::is_cancelled) {
                 return Some(Stop::Cancelled);
             }
             let now = u64::try_from(self.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX);

@@ -5,12 +5,22 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rhai::{Engine, Token};
 
+/// A function that a script defines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Function {
+    pub(crate) name: String,
+    /// How many arguments it takes.
+    pub(crate) arguments: usize,
+    pub(crate) line: u32,
+    pub(crate) column: u32,
+}
+
 /// One script file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Source {
     pub(crate) text: Arc<str>,
     /// Functions that it defines.
-    pub(crate) functions: Vec<String>,
+    pub(crate) functions: Vec<Function>,
     /// Every name that it gives to a variable or constant, anywhere.
     pub(crate) variables: Vec<String>,
     /// The constants outside of functions and blocks.
@@ -26,10 +36,17 @@ impl Source {
         };
         let mut depth = 0_i32;
         let mut before = Token::EOF;
-        for (token, _) in engine.lex(&[text]).0 {
+        // Whether the arguments of a function are being read.
+        let mut in_arguments = false;
+        for (token, position) in engine.lex(&[text]).0 {
             if let Token::Identifier(name) = &token {
                 match before {
-                    Token::Fn => source.functions.push(name.to_string()),
+                    Token::Fn => source.functions.push(Function {
+                        name: name.to_string(),
+                        arguments: 0,
+                        line: position.line().unwrap_or(0) as u32,
+                        column: position.position().unwrap_or(0) as u32,
+                    }),
                     Token::Let | Token::For => source.variables.push(name.to_string()),
                     Token::Const => {
                         source.variables.push(name.to_string());
@@ -37,12 +54,20 @@ impl Source {
                             source.constants.push(name.to_string());
                         }
                     }
+                    _ if in_arguments => {
+                        if let Some(function) = source.functions.last_mut() {
+                            function.arguments += 1;
+                        }
+                        source.variables.push(name.to_string());
+                    }
                     _ => {}
                 }
+                in_arguments |= matches!(before, Token::Fn);
             }
             match token {
                 Token::LeftBrace | Token::MapStart => depth += 1,
                 Token::RightBrace => depth -= 1,
+                Token::RightParen => in_arguments = false,
                 Token::EOF => break,
                 _ => {}
             }
@@ -72,7 +97,11 @@ impl Sources {
     /// The functions of all files.
     pub(crate) fn functions(&self) -> Vec<String> {
         let files = self.lock();
-        files.values().flat_map(|s| s.functions.clone()).collect()
+        files
+            .values()
+            .flat_map(|source| &source.functions)
+            .map(|function| function.name.clone())
+            .collect()
     }
 
     /// The paths of all files.

@@ -48,7 +48,7 @@ pub fn load_pipeline_within(
         files,
         limits,
         Extras {
-            register: &mut |api, _| builder::register(api, &made),
+            register: &mut |api, _, _| builder::register(api, &made),
             globals: Vec::new(),
         },
     );

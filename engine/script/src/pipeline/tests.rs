@@ -1,19 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use lightbench_assets::files::Files;
-
-/// A project with the given files.
-fn project(files: &[(&str, &str)]) -> (tempfile::TempDir, Files) {
-    let folder = tempfile::tempdir().unwrap();
-    for (path, text) in files {
-        let path = folder.path().join(path);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, text).unwrap();
-    }
-    let store = Files::with_project(folder.path()).unwrap();
-    (folder, store)
-}
+use crate::testing::project;
 
 fn load(text: &str) -> Result<PipelineDesc, Problems> {
     let (_folder, files) = project(&[("scripts/pipelines/test.rhai", text)]);

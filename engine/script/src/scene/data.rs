@@ -1,0 +1,190 @@
+//! What a scene script works on.
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lightbench_assets::files::Files;
+use lightbench_assets::{Assets, Mesh, MeshId, Progress};
+use lightbench_world::glam::Vec3;
+use lightbench_world::{Entity, Name, Stored, Transform, World};
+
+use super::parameters::SceneParameter;
+use crate::api::{Mistake, ScriptType};
+use crate::limits::{Limits, Watch};
+use crate::log::Log;
+use crate::settings::Settings;
+
+impl ScriptType for Entity {
+    const NAME: &'static str = "entity";
+}
+
+/// Everything that the functions of a scene script read and write.
+pub(super) struct Data {
+    pub(super) world: World,
+    pub(super) assets: Assets,
+    pub(super) files: Files,
+    pub(super) settings: Settings,
+    pub(super) parameters: Vec<SceneParameter>,
+    pub(super) limits: Limits,
+    pub(super) watch: Arc<Watch>,
+    pub(super) log: Log,
+    pub(super) progress: Progress,
+    /// Models and pictures that were read.
+    pub(super) read: BTreeSet<String>,
+    /// Points that entities stay turned to when they move.
+    pub(super) aims: HashMap<Entity, Vec3>,
+    /// Names that were looked up or given. The world alone would search all names each time.
+    names: HashMap<String, Entity>,
+    triangles: usize,
+}
+
+/// The data, shared by all functions of one scene's engine.
+#[derive(Clone)]
+pub(super) struct Stage(Arc<Mutex<Data>>);
+
+impl Stage {
+    pub(super) fn lock(&self) -> MutexGuard<'_, Data> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Data {
+    pub(super) fn new(
+        files: &Files,
+        settings: &Settings,
+        limits: &Limits,
+        watch: &Arc<Watch>,
+        log: &Log,
+        progress: &Progress,
+    ) -> Stage {
+        Stage(Arc::new(Mutex::new(Self {
+            world: World::new(),
+            assets: Assets::new(),
+            files: files.clone(),
+            settings: settings.clone(),
+            parameters: Vec::new(),
+            limits: limits.clone(),
+            watch: Arc::clone(watch),
+            log: log.clone(),
+            progress: progress.clone(),
+            read: BTreeSet::new(),
+            aims: HashMap::new(),
+            names: HashMap::new(),
+            triangles: 0,
+        })))
+    }
+
+    /// Makes an entity with a place, and a name unless that is empty.
+    pub(super) fn spawn(&mut self, name: &str) -> Result<Entity, Mistake> {
+        if self.world.len() >= self.limits.entities {
+            return Err(Mistake::new(format!(
+                "the scene has {} entities, and may not have more",
+                self.limits.entities
+            )));
+        }
+        let entity = self.world.spawn();
+        self.insert(entity, Transform::default())?;
+        if !name.is_empty() {
+            self.insert(entity, Name::new(name))?;
+            // As in the world, the first of a name is found.
+            if self.find(name).is_none() {
+                self.names.insert(name.to_owned(), entity);
+            }
+        }
+        Ok(entity)
+    }
+
+    /// The entity of that name.
+    pub(super) fn find(&mut self, name: &str) -> Option<Entity> {
+        if let Some(&entity) = self.names.get(name) {
+            let named: Option<Name> = self.world.get(entity);
+            if named.is_some_and(|named| named.text == name) {
+                return Some(entity);
+            }
+            self.names.remove(name);
+            let found = self.world.find(name)?;
+            self.names.insert(name.to_owned(), found);
+            return Some(found);
+        }
+        None
+    }
+
+    /// The name of an entity for a message.
+    pub(super) fn called(&self, entity: Entity) -> String {
+        let name: Option<Name> = self.world.get(entity);
+        match name {
+            Some(name) => format!("the entity `{}`", name.text),
+            None => "the entity".to_owned(),
+        }
+    }
+
+    /// Gives an entity a component.
+    pub(super) fn insert<C: Stored>(&mut self, entity: Entity, row: C) -> Result<(), Mistake> {
+        self.world
+            .insert(entity, row)
+            .map_err(|error| self.refused(entity, &error.to_string()))
+    }
+
+    fn refused(&self, entity: Entity, reason: &str) -> Mistake {
+        if self.world.contains(entity) {
+            Mistake::new(reason)
+        } else {
+            Mistake::new("the entity was removed and can't be used any more")
+        }
+    }
+
+    /// Refuses the handle of a removed entity.
+    pub(super) fn check(&self, entity: Entity) -> Result<(), Mistake> {
+        if self.world.contains(entity) {
+            Ok(())
+        } else {
+            Err(self.refused(entity, ""))
+        }
+    }
+
+    /// A component of an entity, or the mistake of asking for it.
+    pub(super) fn get<C: Stored>(&self, entity: Entity, what: &str) -> Result<C, Mistake> {
+        self.check(entity)?;
+        self.world
+            .get(entity)
+            .ok_or_else(|| Mistake::new(format!("{} is no {what}", self.called(entity))))
+    }
+
+    /// The place of an entity.
+    pub(super) fn transform(&self, entity: Entity) -> Result<Transform, Mistake> {
+        self.check(entity)?;
+        Ok(self.world.get(entity).unwrap_or_default())
+    }
+
+    /// Changes the place of an entity. One that is turned to a point stays turned to it.
+    pub(super) fn place(
+        &mut self,
+        entity: Entity,
+        change: impl FnOnce(&mut Transform),
+    ) -> Result<(), Mistake> {
+        let mut transform = self.transform(entity)?;
+        change(&mut transform);
+        if let Some(&aim) = self.aims.get(&entity) {
+            transform.rotation =
+                Transform::looking_at(transform.translation, aim, Vec3::Y).rotation;
+        }
+        self.insert(entity, transform)
+    }
+
+    /// Adds a mesh, if the scene may have as many triangles.
+    pub(super) fn add_mesh(&mut self, mesh: Mesh) -> Result<MeshId, Mistake> {
+        self.count_triangles(mesh.triangle_count())?;
+        Ok(self.assets.add_mesh(mesh))
+    }
+
+    pub(super) fn count_triangles(&mut self, count: usize) -> Result<(), Mistake> {
+        self.triangles += count;
+        if self.triangles > self.limits.triangles {
+            return Err(Mistake::new(format!(
+                "the meshes of the scene have more than {} triangles together",
+                self.limits.triangles
+            )));
+        }
+        Ok(())
+    }
+}

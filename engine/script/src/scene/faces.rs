@@ -1,0 +1,113 @@
+//! Meshes from flat faces, corner by corner.
+
+use lightbench_assets::Mesh;
+use lightbench_world::glam::{DVec3, Vec2, Vec3};
+
+use crate::api::{Arguments, Mistake};
+
+/// The most corners of one face.
+const MAX_CORNERS: usize = 1024;
+
+/// Reads an array of faces, each an array of at least three corners.
+pub(super) fn read(a: &Arguments) -> Result<Vec<Vec<Vec3>>, Mistake> {
+    let wanted = "an array of faces, each an array of three or more corners, as in \
+                  `[[vec3(0, 0, 0), vec3(1, 0, 0), vec3(1, 1, 0)]]`";
+    let mut faces = Vec::new();
+    for face in a.array(0)? {
+        let corners = face.into_array().map_err(|_| a.wrong(0, wanted))?;
+        let mut points = Vec::with_capacity(corners.len());
+        for corner in corners {
+            let point: DVec3 = corner.try_cast().ok_or_else(|| a.wrong(0, wanted))?;
+            points.push(point.as_vec3());
+        }
+        if !(3..=MAX_CORNERS).contains(&points.len()) {
+            return Err(Mistake::new(format!(
+                "a face has 3 to {MAX_CORNERS} corners, not {}",
+                points.len()
+            )));
+        }
+        if !points.iter().all(|point| point.is_finite()) {
+            return Err(Mistake::new("a corner is infinite or not a number"));
+        }
+        faces.push(points);
+    }
+    Ok(faces)
+}
+
+/// The mesh of flat convex faces, seen from the side on which their corners run counter-clockwise.
+/// Texture coordinates in metres from the first corner, u along the first edge.
+pub(super) fn mesh(faces: &[Vec<Vec3>]) -> Mesh {
+    let mut mesh = Mesh::default().named("faces");
+    for corners in faces {
+        let normal = newell(corners);
+        let first = corners[0];
+        let along = (corners[1] - first)
+            .try_normalize()
+            .unwrap_or_else(|| normal.any_orthonormal_vector());
+        // At right angles to the normal, even where the corners are not quite in one plane.
+        let tangent = (along - normal * along.dot(normal))
+            .try_normalize()
+            .unwrap_or_else(|| normal.any_orthonormal_vector());
+        let up = normal.cross(tangent);
+        let start = mesh.positions.len() as u32;
+        for &corner in corners {
+            let offset = corner - first;
+            mesh.positions.push(corner);
+            mesh.normals.push(normal);
+            mesh.uvs
+                .push(Vec2::new(offset.dot(tangent), -offset.dot(up)));
+            mesh.tangents.push(tangent.extend(1.0));
+        }
+        for third in 2..corners.len() as u32 {
+            mesh.indices
+                .extend([start, start + third - 1, start + third]);
+        }
+    }
+    mesh
+}
+
+/// Newell's normal (Sutherland, Sproull and Schumacker 1974), which no three corners in one line
+/// can spoil.
+fn newell(corners: &[Vec3]) -> Vec3 {
+    let next = corners.iter().cycle().skip(1);
+    corners
+        .iter()
+        .zip(next)
+        .map(|(a, b)| (*a - corners[0]).cross(*b - corners[0]))
+        .sum::<Vec3>()
+        .try_normalize()
+        .unwrap_or(Vec3::Y)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_slanted_square_is_a_whole_mesh() {
+        let square = vec![
+            Vec3::ZERO,
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::new(2.0, 2.0, -2.0),
+            Vec3::new(0.0, 2.0, -2.0),
+        ];
+        let mesh = mesh(&[square]);
+        mesh.validate().unwrap();
+        assert_eq!(mesh.triangle_count(), 2);
+        assert!((mesh.area() - 2.0 * 8_f64.sqrt()).abs() < 1e-6);
+        let expected = Vec3::new(0.0, 1.0, 1.0).normalize();
+        for normal in &mesh.normals {
+            assert!(normal.distance(expected) < 1e-6);
+        }
+        // Up the picture is up the square: v falls with the height.
+        assert!((mesh.uvs[2] - Vec2::new(2.0, -8_f32.sqrt())).length() < 1e-5);
+    }
+
+    #[test]
+    fn faces_without_an_area_do_no_harm() {
+        let line = vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
+        let point = vec![Vec3::ONE; 5];
+        mesh(&[line, point]).validate().unwrap();
+    }
+}

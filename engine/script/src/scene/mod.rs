@@ -1,0 +1,305 @@
+//! Scene files: `scripts/scenes/*.rhai` build worlds and move them.
+
+mod bounds;
+mod cameras;
+mod data;
+mod entities;
+mod faces;
+mod lights;
+mod list;
+mod materials;
+mod models;
+mod parameters;
+mod shapes;
+mod state;
+mod textures;
+
+use lightbench_assets::files::Files;
+use lightbench_assets::{Assets, Progress};
+use lightbench_render::problem::suggestion;
+use lightbench_render::{Place, Problem, Problems};
+use lightbench_world::{Camera, Entity, World};
+use rhai::{AST, Dynamic, Module, Scope};
+
+use crate::host::{Extras, Host, find};
+use crate::limits::Limits;
+use crate::log::LogLine;
+use crate::names::{Names, list as enumerate};
+use crate::settings::Settings;
+use data::{Data, Stage};
+
+pub use list::{SceneEntry, list_scenes};
+pub use parameters::{SceneParameter, SceneParameterKind};
+
+/// The folder of the scene files.
+pub const SCENES: &str = "scripts/scenes";
+
+/// A world that a script made, and the script that moves it.
+pub struct Scene {
+    /// The entities.
+    pub world: World,
+    /// Their meshes, materials and textures.
+    pub assets: Assets,
+    /// What can be set from outside.
+    pub parameters: Vec<SceneParameter>,
+    /// The script's path.
+    pub path: String,
+    host: Host,
+    stage: Stage,
+    /// Calls `update`, where the script has it.
+    update: Option<AST>,
+    /// Whether an update failed; the script is not called again.
+    stopped: bool,
+}
+
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Scene")
+            .field("path", &self.path)
+            .field("entities", &self.world.len())
+            .field("parameters", &self.parameters)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Runs a scene file.
+///
+/// `name_or_path` is a name as in `atrium`, or a path from the project's folder. `settings` gives
+/// values to the parameters that the file declares. Runs on the calling thread; give it one of its
+/// own where a window must stay alive, and stop it through `progress`.
+///
+/// # Errors
+/// What is wrong with the file, with its place; and every setting that the scene does not have.
+pub fn load_scene(
+    files: &Files,
+    name_or_path: &str,
+    settings: &Settings,
+    progress: &Progress,
+) -> Result<Scene, Problems> {
+    load_scene_within(files, name_or_path, settings, progress, &Limits::default())
+}
+
+/// [`load_scene`] with other limits.
+///
+/// # Errors
+/// As [`load_scene`].
+pub fn load_scene_within(
+    files: &Files,
+    name_or_path: &str,
+    settings: &Settings,
+    progress: &Progress,
+    limits: &Limits,
+) -> Result<Scene, Problems> {
+    let path = find(files, SCENES, name_or_path)?;
+    let name = path.rsplit('/').next().unwrap_or(&path);
+    if progress.begin(format!("Running {name}"), 0.0).is_err() {
+        let stopped = Problem::new(Place::file(path), "the script was stopped");
+        return Err(stopped.into());
+    }
+    let (host, stage) = host(files, settings, limits, progress);
+    let ast = host.load(&path)?;
+    let update = update_call(&host, &path)?;
+    host.watch.start(limits.load_time);
+    let module = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine)
+        .map_err(|error| host.compiler.explain(&error, &path))?;
+    let mut scene = Scene {
+        world: World::new(),
+        assets: Assets::new(),
+        parameters: Vec::new(),
+        path,
+        host,
+        stage,
+        update,
+        stopped: false,
+    };
+    scene
+        .host
+        .engine
+        .register_static_module(SCRIPT_MODULE, module.into());
+    scene.finish()?;
+    Ok(scene)
+}
+
+/// The name under which the script's functions are called. No script can spell it.
+const SCRIPT_MODULE: &str = "scene_script";
+
+/// The names of everything that scene scripts can call.
+#[must_use]
+pub fn scene_names() -> Names {
+    let (host, _) = host(
+        &Files::shipped(),
+        &Settings::new(),
+        &Limits::default(),
+        &Progress::new(),
+    );
+    host.compiler.names.clone()
+}
+
+fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress) -> (Host, Stage) {
+    let mut stage = None;
+    let host = Host::new(
+        files,
+        limits,
+        Extras {
+            register: &mut |api, watch, log| {
+                watch.stop_with(progress);
+                let made = Data::new(files, settings, limits, watch, log, progress);
+                parameters::register(api, &made);
+                entities::register(api, &made);
+                bounds::register(api, &made);
+                shapes::register(api, &made);
+                textures::register(api, &made);
+                materials::register(api, &made);
+                models::register(api, &made);
+                lights::register(api, &made);
+                cameras::register(api, &made);
+                state::register(api);
+                stage = Some(made);
+            },
+            globals: vec![("state", Dynamic::from(state::State::default()))],
+        },
+    );
+    let stage = stage
+        .unwrap_or_else(|| Data::new(files, settings, limits, &host.watch, &host.log, progress));
+    (host, stage)
+}
+
+/// What calls the script's `update`, with as many arguments as it takes.
+fn update_call(host: &Host, path: &str) -> Result<Option<AST>, Problem> {
+    let Some(source) = host.compiler.sources.get(path) else {
+        return Ok(None);
+    };
+    let Some(function) = source.functions.iter().find(|f| f.name == "update") else {
+        return Ok(None);
+    };
+    let arguments = match function.arguments {
+        0 => "",
+        1 => "time",
+        2 => "time, dt",
+        count => {
+            let at = Place::new(path, function.line, function.column);
+            let problem = Problem::new(at, format!("`update` takes {count} arguments"))
+                .with_hint("it is written `fn update(time, dt) { … }`")
+                .with_source(&source.text);
+            return Err(problem);
+        }
+    };
+    let mut scope = Scope::new();
+    scope.push("time", 0.0_f64).push("dt", 0.0_f64);
+    let call = format!("{SCRIPT_MODULE}::update({arguments})");
+    // Without strictness: the module is registered after the script has run.
+    host.compile_loosely(&scope, &call)
+        .map(Some)
+        .map_err(|error| Problem::new(Place::file(path), error))
+}
+
+impl Scene {
+    /// Takes over what the script made, and checks that everything that was set has been used.
+    fn finish(&mut self) -> Result<(), Problems> {
+        let mut data = self.stage.lock();
+        let has_camera = !data.world.columns::<Camera>().is_empty();
+        if !has_camera && let Err(mistake) = cameras::add_default(&mut data) {
+            return Err(Problem::new(Place::file(self.path.as_str()), mistake.message).into());
+        }
+        let names = || data.parameters.iter().map(|p| p.name.as_str());
+        let mut problems = Vec::new();
+        for (name, _) in data.settings.iter() {
+            if names().any(|known| known == name) {
+                continue;
+            }
+            let at = Place::file(self.path.as_str());
+            let mut problem = Problem::new(at, format!("the scene has no parameter `{name}`"));
+            problem.hint = Some(match suggestion(name, names()) {
+                Some(hint) => hint,
+                None if data.parameters.is_empty() => "it has no parameters".to_owned(),
+                None => format!("it has {}", enumerate(names(), "and")),
+            });
+            problems.push(problem);
+        }
+        if !problems.is_empty() {
+            return Err(Problems(problems));
+        }
+        self.parameters = data.parameters.clone();
+        std::mem::swap(&mut self.world, &mut data.world);
+        std::mem::swap(&mut self.assets, &mut data.assets);
+        Ok(())
+    }
+
+    /// Calls the script's `update(time, dt)`, where it has one.
+    ///
+    /// # Errors
+    /// What went wrong in the script, once: after an error the script is not called again, and what
+    /// it had changed stays.
+    pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
+        let Some(call) = self.update.clone().filter(|_| !self.stopped) else {
+            return Ok(());
+        };
+        self.swap();
+        let mut scope = Scope::new();
+        scope.push("time", time).push("dt", dt);
+        let limit = self.host.compiler.limits.update_time;
+        self.host.watch.start(limit);
+        let result = self
+            .host
+            .engine
+            .eval_ast_with_scope::<Dynamic>(&mut scope, &call);
+        self.swap();
+        match result {
+            Ok(_) => Ok(()),
+            Err(error) => {
+                self.stopped = true;
+                Err(self.host.compiler.explain(&error, &self.path))
+            }
+        }
+    }
+
+    /// Lends the world to the script's functions, and takes it back.
+    fn swap(&mut self) {
+        let mut data = self.stage.lock();
+        std::mem::swap(&mut self.world, &mut data.world);
+        std::mem::swap(&mut self.assets, &mut data.assets);
+    }
+
+    /// Whether the script moves the scene.
+    #[must_use]
+    pub fn has_update(&self) -> bool {
+        self.update.is_some() && !self.stopped
+    }
+
+    /// The camera that the view is drawn from: the first active one.
+    #[must_use]
+    pub fn camera(&self) -> Option<Entity> {
+        let cameras = self.world.columns::<Camera>();
+        let active = cameras.slices().active.iter().position(|active| *active);
+        active.map(|row| cameras.entities()[row])
+    }
+
+    /// Every file that the scene came from: scripts, models and pictures. When one changes, the
+    /// scene is to be loaded again.
+    #[must_use]
+    pub fn files(&self) -> Vec<String> {
+        let mut files = self.host.files_read();
+        files.extend(self.stage.lock().read.iter().cloned());
+        files
+    }
+
+    /// Takes out what the script has printed since the last call, with warnings of its models.
+    pub fn take_log(&mut self) -> Vec<LogLine> {
+        self.host.log.take()
+    }
+
+    /// The names that the script can call.
+    #[must_use]
+    pub fn names(&self) -> &Names {
+        &self.host.compiler.names
+    }
+}
+
+/// A scene is made on one thread and used on another.
+const _: fn() = || {
+    fn assert_send<T: Send>() {}
+    assert_send::<Scene>();
+};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,458 @@
+//! Painted textures with their setters, and pictures from files.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lightbench_assets::images::{Purpose, decode_texture};
+use lightbench_assets::procedural_texture::{self, Brick, Marble, Plaster, Stone, Tiles, Weave};
+use lightbench_assets::{MAX_TEXTURE_SIZE, Texture, TextureId};
+use lightbench_world::glam::Vec3;
+
+use super::data::{Data, Stage};
+use crate::api::{Api, Arguments, Mistake, ScriptType};
+
+/// How a texture is made.
+#[derive(Clone, Debug)]
+enum Kind {
+    Stone(Stone),
+    Marble(Marble),
+    Plaster(Plaster),
+    Brick(Brick),
+    Tiles(Tiles),
+    Weave(Weave),
+    Checker {
+        size: u32,
+        squares: u32,
+        colors: [Vec3; 2],
+    },
+    Picture {
+        path: String,
+    },
+}
+
+impl Kind {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Stone(_) => "stone",
+            Self::Marble(_) => "marble",
+            Self::Plaster(_) => "plaster",
+            Self::Brick(_) => "brick",
+            Self::Tiles(_) => "tiles",
+            Self::Weave(_) => "weave",
+            Self::Checker { .. } => "checker",
+            Self::Picture { .. } => "picture",
+        }
+    }
+}
+
+/// A texture, as scripts hold it: numbers first, pixels as soon as a material uses it.
+#[derive(Clone, Debug)]
+pub(super) struct Pattern(Arc<Mutex<Plan>>);
+
+#[derive(Debug)]
+struct Plan {
+    kind: Kind,
+    color: Option<TextureId>,
+    normal: Option<TextureId>,
+}
+
+impl ScriptType for Pattern {
+    const NAME: &'static str = "texture";
+}
+
+impl Pattern {
+    fn new(kind: Kind) -> Self {
+        Self(Arc::new(Mutex::new(Plan {
+            kind,
+            color: None,
+            normal: None,
+        })))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Plan> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The texture of colours.
+    pub(super) fn color(&self, data: &mut Data) -> Result<TextureId, Mistake> {
+        let mut plan = self.lock();
+        if plan.color.is_none() {
+            plan.paint(data, Purpose::Color)?;
+        }
+        plan.color
+            .ok_or_else(|| Mistake::new("the texture has no colours"))
+    }
+
+    /// The normal map that belongs to the colours, or the picture taken as one.
+    pub(super) fn normal(&self, data: &mut Data) -> Result<TextureId, Mistake> {
+        let mut plan = self.lock();
+        if plan.normal.is_none() {
+            plan.paint(data, Purpose::Data)?;
+        }
+        plan.normal.ok_or_else(|| {
+            Mistake::new(format!(
+                "the texture `{}` is smooth and has no normals",
+                plan.kind.name()
+            ))
+        })
+    }
+
+    /// The normal map, if the texture comes with one.
+    pub(super) fn own_normal(&self, data: &mut Data) -> Result<Option<TextureId>, Mistake> {
+        self.color(data)?;
+        Ok(self.lock().normal)
+    }
+}
+
+impl Plan {
+    fn paint(&mut self, data: &mut Data, purpose: Purpose) -> Result<(), Mistake> {
+        if data
+            .progress
+            .begin(format!("Painting {}", self.kind.name()), 0.0)
+            .is_err()
+        {
+            return Err(Mistake::new("the script was stopped"));
+        }
+        let watch = Arc::clone(&data.watch);
+        let surface = match &self.kind {
+            Kind::Stone(stone) => watch.free_of_charge(|| stone.paint()),
+            Kind::Plaster(plaster) => watch.free_of_charge(|| plaster.paint()),
+            Kind::Brick(brick) => watch.free_of_charge(|| brick.paint()),
+            Kind::Tiles(tiles) => watch.free_of_charge(|| tiles.paint()),
+            Kind::Weave(weave) => watch.free_of_charge(|| weave.paint()),
+            Kind::Marble(marble) => {
+                let texture = watch.free_of_charge(|| marble.paint());
+                self.color = Some(data.assets.add_texture(texture));
+                return Ok(());
+            }
+            Kind::Checker {
+                size,
+                squares,
+                colors,
+            } => {
+                let texture = procedural_texture::checker(*size, *squares, *colors);
+                self.color = Some(data.assets.add_texture(texture));
+                return Ok(());
+            }
+            Kind::Picture { path } => {
+                let texture = watch.free_of_charge(|| read_picture(data, path, purpose))?;
+                let id = Some(data.assets.add_texture(texture));
+                match purpose {
+                    Purpose::Color => self.color = id,
+                    Purpose::Data => self.normal = id,
+                }
+                return Ok(());
+            }
+        };
+        self.color = Some(data.assets.add_texture(surface.base_color));
+        self.normal = Some(data.assets.add_texture(surface.normal));
+        Ok(())
+    }
+}
+
+fn read_picture(data: &mut Data, path: &str, purpose: Purpose) -> Result<Texture, Mistake> {
+    data.read.insert(path.to_owned());
+    let bytes = data
+        .files
+        .read(path)
+        .map_err(|error| Mistake::new(error.to_string()))?;
+    decode_texture(path, &bytes, purpose).map_err(|error| Mistake::new(error.to_string()))
+}
+
+pub(super) fn register(api: &mut Api, stage: &Stage) {
+    api.object::<Pattern>();
+    let mut pattern = |form: &str, about: &'static str, kind: Kind| {
+        api.function(form, about, move |_| Ok(Pattern::new(kind.clone())));
+    };
+    pattern(
+        "stone_texture()",
+        "Cut stone: a fine grain over soft clouds. Two colours.",
+        Kind::Stone(Stone::default()),
+    );
+    pattern(
+        "marble_texture()",
+        "Polished marble: thin dark veins. Two colours; no normals.",
+        Kind::Marble(Marble::default()),
+    );
+    pattern(
+        "plaster_texture()",
+        "A plastered wall, a little uneven. One colour.",
+        Kind::Plaster(Plaster::default()),
+    );
+    pattern(
+        "brick_texture()",
+        "A brick wall. Two colours of bricks and one of mortar.",
+        Kind::Brick(Brick::default()),
+    );
+    pattern(
+        "tiles_texture()",
+        "A floor of two kinds of tiles. Their two colours and that of the joints.",
+        Kind::Tiles(Tiles::default()),
+    );
+    pattern(
+        "weave_texture()",
+        "Woven cloth with stripes. Colours of the cloth, its stripes and their borders.",
+        Kind::Weave(Weave::default()),
+    );
+    api.function(
+        "checker_texture(squares)",
+        "A checkerboard with that many squares along each side. Two colours.",
+        |a| {
+            Ok(Pattern::new(Kind::Checker {
+                size: 512,
+                squares: a.whole(0, 2, 512)? as u32,
+                colors: [Vec3::splat(0.7), Vec3::splat(0.1)],
+            }))
+        },
+    );
+    let asked = stage.clone();
+    api.function(
+        "picture(path)",
+        "A picture of the project: PNG, JPEG, TGA, BMP, HDR or EXR. Reads it when it is used.",
+        move |a| {
+            let path = a.text(0)?;
+            let data = asked.lock();
+            data.files
+                .origin(&path)
+                .map_err(|error| Mistake::new(error.to_string()))?;
+            Ok(Pattern::new(Kind::Picture { path }))
+        },
+    );
+    setters(api);
+}
+
+/// Registers a setter of some kinds of texture. `change` says whether the kind has it.
+fn setter(
+    api: &mut Api,
+    form: &'static str,
+    about: &'static str,
+    change: impl Fn(&mut Kind, &Arguments) -> Result<bool, Mistake> + Send + Sync + 'static,
+) {
+    let name = form.split('(').next().unwrap_or(form);
+    api.method(form, about, move |pattern: Pattern, a| {
+        let mut plan = pattern.lock();
+        if !change(&mut plan.kind, a)? {
+            return Err(Mistake::new(format!(
+                "the texture `{}` has no `{name}` with {} values",
+                plan.kind.name(),
+                a.len()
+            )));
+        }
+        (plan.color, plan.normal) = (None, None);
+        drop(plan);
+        Ok(pattern)
+    });
+}
+
+fn setters(api: &mut Api) {
+    setter(
+        api,
+        "size(pixels)",
+        "Pixels a side; 512 unless told. Powers of two are best.",
+        |kind, a| {
+            let pixels = a.whole(0, 1, i64::from(MAX_TEXTURE_SIZE.min(4096)))? as u32;
+            match kind {
+                Kind::Stone(Stone { size, .. })
+                | Kind::Marble(Marble { size, .. })
+                | Kind::Plaster(Plaster { size, .. })
+                | Kind::Brick(Brick { size, .. })
+                | Kind::Tiles(Tiles { size, .. })
+                | Kind::Weave(Weave { size, .. })
+                | Kind::Checker { size, .. } => *size = pixels,
+                Kind::Picture { .. } => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "seed(number)",
+        "Another piece of the same kind.",
+        |kind, a| {
+            let number = a.whole(0, 0, i64::from(u32::MAX))? as u32;
+            match kind {
+                Kind::Stone(Stone { seed, .. })
+                | Kind::Marble(Marble { seed, .. })
+                | Kind::Plaster(Plaster { seed, .. })
+                | Kind::Brick(Brick { seed, .. })
+                | Kind::Tiles(Tiles { seed, .. })
+                | Kind::Weave(Weave { seed, .. }) => *seed = number,
+                _ => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+    colors(api);
+    setter(
+        api,
+        "pieces(across)",
+        "Tiles along a side, made even.",
+        |kind, a| {
+            let across = a.whole(0, 1, 1024)? as u32;
+            let Kind::Tiles(tiles) = kind else {
+                return Ok(false);
+            };
+            tiles.count = across;
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "pieces(across, up)",
+        "Bricks along a side and courses up.",
+        |kind, a| {
+            let (across, up) = (a.whole(0, 1, 1024)? as u32, a.whole(1, 1, 1024)? as u32);
+            let Kind::Brick(brick) = kind else {
+                return Ok(false);
+            };
+            (brick.columns, brick.courses) = (across, up);
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "joint(share)",
+        "Width of the joints as a share of a tile, or of a course of bricks, 0 to 0.9.",
+        |kind, a| {
+            let share = a.number_in(0, 0.0, 0.9)? as f32;
+            match kind {
+                Kind::Brick(brick) => brick.joint = share,
+                Kind::Tiles(tiles) => tiles.joint = share,
+                _ => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "depth(share)",
+        "How deep joints or threads are, as a share of the picture's side.",
+        |kind, a| {
+            let share = a.number_in(0, 0.0, 1.0)? as f32;
+            match kind {
+                Kind::Stone(Stone {
+                    roughness: depth, ..
+                })
+                | Kind::Plaster(Plaster {
+                    roughness: depth, ..
+                })
+                | Kind::Brick(Brick { depth, .. })
+                | Kind::Tiles(Tiles { depth, .. })
+                | Kind::Weave(Weave { depth, .. }) => *depth = share,
+                _ => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "clouds(count)",
+        "Clouds of colour along a side of stone.",
+        |kind, a| {
+            let count = a.whole(0, 1, 256)? as u32;
+            let Kind::Stone(stone) = kind else {
+                return Ok(false);
+            };
+            stone.scale = count;
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "bands(right, down)",
+        "Bands of marble to the right and down.",
+        |kind, a| {
+            let bands = [a.whole(0, 0, 256)? as u32, a.whole(1, 0, 256)? as u32];
+            let Kind::Marble(marble) = kind else {
+                return Ok(false);
+            };
+            marble.bands = bands;
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "stripes(count, width)",
+        "Stripe patterns along a side of cloth, and how much of each the stripe takes, 0 to 1.",
+        |kind, a| {
+            let (count, width) = (a.whole(0, 0, 256)? as u32, a.number_in(1, 0.0, 1.0)? as f32);
+            let Kind::Weave(weave) = kind else {
+                return Ok(false);
+            };
+            (weave.stripes, weave.stripe_width) = (count, width);
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "stains(share)",
+        "How much darker the stains of plaster are, or how much tiles differ, 0 to 1.",
+        |kind, a| {
+            let share = a.number_in(0, 0.0, 1.0)? as f32;
+            match kind {
+                Kind::Plaster(plaster) => plaster.stains = share,
+                Kind::Tiles(tiles) => tiles.variety = share,
+                _ => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+}
+
+fn colors(api: &mut Api) {
+    let color = |a: &Arguments, index: usize| -> Result<Vec3, Mistake> {
+        a.object::<crate::color::Color>(index)
+            .map(|color| color.0.as_vec3())
+    };
+    setter(
+        api,
+        "colors(only)",
+        "The colour of plaster.",
+        move |kind, a| {
+            let only = color(a, 0)?;
+            let Kind::Plaster(plaster) = kind else {
+                return Ok(false);
+            };
+            plaster.color = only;
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "colors(first, second)",
+        "The two colours of a texture, as its own text says.",
+        move |kind, a| {
+            let pair = [color(a, 0)?, color(a, 1)?];
+            match kind {
+                Kind::Stone(Stone { colors, .. })
+                | Kind::Marble(Marble { colors, .. })
+                | Kind::Brick(Brick { colors, .. })
+                | Kind::Tiles(Tiles { colors, .. })
+                | Kind::Checker { colors, .. } => *colors = pair,
+                Kind::Weave(weave) => {
+                    (weave.colors[0], weave.colors[1]) = (pair[0], pair[1]);
+                }
+                _ => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+    setter(
+        api,
+        "colors(first, second, third)",
+        "The three colours of a texture, as its own text says.",
+        move |kind, a| {
+            let [first, second, third] = [color(a, 0)?, color(a, 1)?, color(a, 2)?];
+            match kind {
+                Kind::Brick(brick) => {
+                    (brick.colors, brick.mortar) = ([first, second], third);
+                }
+                Kind::Tiles(tiles) => {
+                    (tiles.colors, tiles.grout) = ([first, second], third);
+                }
+                Kind::Weave(weave) => weave.colors = [first, second, third],
+                _ => return Ok(false),
+            }
+            Ok(true)
+        },
+    );
+}
