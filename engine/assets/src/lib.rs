@@ -44,6 +44,8 @@
 mod assets;
 pub mod color;
 pub mod files;
+#[cfg(test)]
+mod fuzz;
 pub mod images;
 mod material;
 mod mesh;

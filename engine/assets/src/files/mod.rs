@@ -266,6 +266,12 @@ impl Files {
     /// Where a file of the project is or would be, with its folder made.
     fn place_in_project(&self, path: &str) -> Result<PathBuf, FileError> {
         check(path)?;
+        if self.granted(path)?.is_some() {
+            return Err(FileError::BadPath {
+                path: path.to_owned(),
+                reason: "files outside the project are only read",
+            });
+        }
         let project = self.project.as_ref().ok_or_else(|| FileError::NoProject {
             path: path.to_owned(),
         })?;

@@ -239,6 +239,7 @@ fn granted_files_bring_what_lies_beside_them() {
             .grant(outside.path())
             .is_ok_and(|path| files.read(&path).is_err())
     );
+    assert!(files.write(&path, b"changed").is_err() && !folder.path().join("@0").exists());
     // A file of the project keeps its usual path.
     put(&folder, "models/x.obj", "v");
     assert_eq!(

@@ -124,9 +124,10 @@ fn is_ear(flat: &[DVec2], left: &[usize], ear: [usize; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use rand::{Rng, SeedableRng};
+    use rand::Rng;
 
     use super::*;
+    use crate::fuzz;
 
     /// Areas of the triangles against the area of the polygon, all turning as
     /// it does: then they cover it once.
@@ -205,8 +206,8 @@ mod tests {
 
     #[test]
     fn random_stars() {
-        let mut random = rand_pcg::Pcg64::seed_from_u64(1);
-        for _ in 0..2000 {
+        let mut random = fuzz::random();
+        for _ in 0..fuzz::rounds(2000, 1_000_000) {
             let count = random.random_range(4..40);
             let star: Vec<DVec2> = (0..count)
                 .map(|at| {
@@ -220,8 +221,8 @@ mod tests {
 
     #[test]
     fn hopeless_polygons_end() {
-        let mut random = rand_pcg::Pcg64::seed_from_u64(2);
-        for _ in 0..2000 {
+        let mut random = fuzz::random();
+        for _ in 0..fuzz::rounds(2000, 1_000_000) {
             let count = random.random_range(3..24);
             // A coarse grid makes many coincident and collinear corners.
             let corners: Vec<DVec3> = (0..count)

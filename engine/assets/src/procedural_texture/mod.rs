@@ -1,7 +1,8 @@
 //! Pictures from parameters: stone, brick, tiles, cloth, plaster and a checker.
 //!
 //! Every picture can be laid side by side without a seam, and the same
-//! parameters give the same bytes on every machine. Colours are linear
+//! parameters always give the same bytes on one system (between systems, sines
+//! may differ in their last bit). Colours are linear
 //! Rec. 709. Sizes are in pixels a side, brought into the range from 1 to
 //! [`MAX_TEXTURE_SIZE`]; counts are at least 1.
 //!

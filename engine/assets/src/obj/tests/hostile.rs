@@ -2,11 +2,11 @@
 
 use std::fs;
 
+use rand::Rng;
 use rand::seq::IndexedRandom;
-use rand::{Rng, SeedableRng};
 
 use super::{Fixture, SQUARE, check, warnings};
-use crate::TextureId;
+use crate::{TextureId, fuzz};
 
 #[test]
 fn damaged_pictures_become_the_placeholder() {
@@ -150,7 +150,7 @@ fn hostile_files_give_one_line_each() {
 /// drawn or one line that says why not.
 #[test]
 fn damaged_files_never_panic() {
-    let mut random = rand_pcg::Pcg64::seed_from_u64(20);
+    let mut random = fuzz::random();
     let fixture = Fixture::new();
     fixture.png("a.png", |x, y| [x as u8 * 9, y as u8, 0, 255]);
     let library = "newmtl a\nKd 1 0.5 0\nKs 0.1 0.1 0.1\nNs 20\nmap_Kd a.png\nnewmtl b c\nKd 0 0 1\nd 0.5\nbump -bm 2 a.png\n";
@@ -223,7 +223,8 @@ fn damaged_files_never_panic() {
         bytes
     };
     let (mut drawn, mut refused) = (0, 0);
-    for _ in 0..4000 {
+    let rounds = fuzz::rounds(4000, 1_000_000);
+    for _ in 0..rounds {
         fixture.write("x.obj", mutate(&mut random, model));
         fixture.write("x.mtl", mutate(&mut random, library));
         match fixture.load("x.obj") {
@@ -242,8 +243,6 @@ fn damaged_files_never_panic() {
         }
     }
     println!("{drawn} drawn, {refused} refused");
-    assert!(
-        drawn > 1000 && refused > 500,
-        "{drawn} drawn, {refused} refused"
-    );
+    // Both happen often, or the damage is too great or too small to tell.
+    assert!(drawn > rounds / 5 && refused > rounds / 5);
 }
