@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::{UVec2, Vec2, Vec3};
 
-use super::flat::add_cells;
+use super::flat::add_cells_with_area;
 use super::{count, length};
 use crate::Mesh;
 
@@ -201,17 +201,6 @@ fn add_grid(mesh: &mut Mesh, cells: UVec2, vertex: impl Fn(f32, f32) -> Vertex) 
             mesh.uvs.push(vertex.uv);
         }
     }
-    let before = mesh.indices.len();
-    add_cells(mesh, first, cells.x, cells.y);
     // Where the inner radius is 0, half of the triangles shrink to a line.
-    let cells = mesh.indices.split_off(before);
-    mesh.indices.extend(
-        cells
-            .chunks_exact(3)
-            .filter(|corner| {
-                let [a, b, c] = [0, 1, 2].map(|at| mesh.positions[corner[at] as usize]);
-                (b - a).cross(c - a) != Vec3::ZERO
-            })
-            .flatten(),
-    );
+    add_cells_with_area(mesh, first, cells.x, cells.y);
 }

@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::flat::add_cells;
+use super::flat::add_cells_with_area;
 use super::{count, length};
 use crate::Mesh;
 
@@ -48,33 +48,32 @@ impl ArchedWall {
         let angles = self.angles(half);
         let inner = angles.iter().map(|&angle| radius * direction(angle));
         let inner: Vec<Vec2> = inner.collect();
-        let outer = angles.iter().map(|&angle| on_outline(direction(angle), half));
-        let outer: Vec<Vec2> = outer.collect();
+        let outer = angles
+            .iter()
+            .map(|&angle| on_outline(direction(angle), half));
+        let mut outer: Vec<Vec2> = outer.collect();
 
         let mut mesh = Mesh::default().named("arched wall");
         add_front_and_back(&mut mesh, &inner, &outer, front);
         // The underside of the opening looks at its middle.
         add_ribbon(&mut mesh, &inner, front, |at| -at.normalize_or(Vec2::Y));
-        // The outline, edge by edge: right, top, left, and both feet.
-        let (right, up) = (Vec2::new(half.x, 0.0), Vec2::new(0.0, half.y));
-        for (from, to, normal) in [
-            (right + up, right, Vec2::X),
-            (up - right, up + right, Vec2::Y),
-            (-right, up - right, -Vec2::X),
-            (Vec2::X * radius, right, -Vec2::Y),
-            (-right, Vec2::X * -radius, -Vec2::Y),
-        ] {
-            // Walked so that the outside is to the left, as along the opening.
-            let (from, to) = if (to - from).perp().dot(normal) > 0.0 {
-                (from, to)
-            } else {
-                (to, from)
-            };
-            if from != to {
-                add_ribbon(&mut mesh, &[from, to], front, |_| normal);
-            }
+        // The outline, edge by edge, so that each has its own normal.
+        let corner = |x: f32| {
+            let corner = Vec2::new(x, half.y);
+            outer.iter().position(|&at| at == corner).unwrap_or(0)
+        };
+        let (right, left) = (corner(half.x), corner(-half.x));
+        outer.reverse();
+        let last = outer.len() - 1;
+        let (right, left) = (last - right, last - left);
+        add_ribbon(&mut mesh, &outer[..=left], front, |_| -Vec2::X);
+        add_ribbon(&mut mesh, &outer[left..=right], front, |_| Vec2::Y);
+        add_ribbon(&mut mesh, &outer[right..], front, |_| Vec2::X);
+        // Both feet.
+        for [from, to] in [[half.x, radius], [-radius, -half.x]] {
+            let foot = [from, to].map(|x| Vec2::new(x, 0.0));
+            add_ribbon(&mut mesh, &foot, front, |_| -Vec2::Y);
         }
-        mesh.drop_empty_triangles();
         mesh
     }
 
@@ -141,21 +140,25 @@ fn add_front_and_back(mesh: &mut Mesh, inner: &[Vec2], outer: &[Vec2], front: f3
         for row in [inner, outer] {
             // The angle falls to the right as seen from the front.
             for step in 0..row.len() {
-                let at = row[if side > 0.0 { row.len() - 1 - step } else { step }];
+                let at = row[if side > 0.0 {
+                    row.len() - 1 - step
+                } else {
+                    step
+                }];
                 mesh.positions.push(at.extend(side * front));
                 mesh.normals.push(Vec3::Z * side);
                 mesh.tangents.push((Vec3::X * side).extend(1.0));
                 mesh.uvs.push(Vec2::new(side * at.x, -at.y));
             }
         }
-        add_cells(mesh, first, inner.len() as u32 - 1, 1);
+        add_cells_with_area(mesh, first, inner.len() as u32 - 1, 1);
     }
 }
 
 /// A strip as deep as the wall along a line whose outside is to the left.
 fn add_ribbon(mesh: &mut Mesh, line: &[Vec2], front: f32, normal: impl Fn(Vec2) -> Vec2) {
     let first = mesh.positions.len() as u32;
-    for z in [-front, front] {
+    for z in [front, -front] {
         let mut along = 0.0;
         for (step, &at) in line.iter().enumerate() {
             if step > 0 {
@@ -165,8 +168,55 @@ fn add_ribbon(mesh: &mut Mesh, line: &[Vec2], front: f32, normal: impl Fn(Vec2) 
             mesh.positions.push(at.extend(z));
             mesh.normals.push(normal.extend(0.0));
             mesh.tangents.push((-normal.perp()).extend(0.0).extend(1.0));
-            mesh.uvs.push(Vec2::new(along, -z));
+            mesh.uvs.push(Vec2::new(along, z));
         }
     }
-    add_cells(mesh, first, line.len() as u32 - 1, 1);
+    add_cells_with_area(mesh, first, line.len() as u32 - 1, 1);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_opening_is_cut_out_of_the_slab() {
+        // The corners lie at 45 degrees, where one of the even cuts is.
+        let wall = ArchedWall {
+            width: 4.0,
+            ..ArchedWall::default()
+        };
+        let mesh = wall.mesh();
+        // A block less half of a regular polygon of 72 sides.
+        let polygon = 0.5 * 72.0 * (2.0 * std::f64::consts::PI / 72.0).sin() * 1.44;
+        let volume = (4.0 * 2.0 - 0.5 * polygon) * 0.45;
+        assert!((mesh.volume() / volume - 1.0).abs() < 1e-5);
+        let bounds = mesh.bounds();
+        assert!((bounds.half_extents - Vec3::new(2.0, 1.0, 0.225)).length() < 1e-6);
+        assert!((bounds.center - Vec3::Y).length() < 1e-6);
+    }
+
+    #[test]
+    fn neighbours_meet_without_a_gap() {
+        // Whatever the cut, the sides are exactly half the width away.
+        for (width, height) in [(3.0, 2.0), (1.6, 4.0), (2.5, 1.25), (7.0, 1.3)] {
+            let wall = ArchedWall {
+                width,
+                height,
+                radius: 0.7,
+                ..ArchedWall::default()
+            };
+            let mesh = wall.mesh();
+            let outside = mesh.positions.iter().filter(|at| {
+                let on_side = at.x.abs() == 0.5 * width;
+                let on_level = at.y == height || at.y == 0.0;
+                let on_opening = (at.truncate().length() - 0.7).abs() < 1e-5;
+                !(on_side || on_level || on_opening)
+            });
+            assert_eq!(outside.count(), 0, "{width} x {height}");
+            for corner in [-0.5 * width, 0.5 * width] {
+                let top = Vec2::new(corner, height);
+                assert!(mesh.positions.iter().any(|at| at.truncate() == top));
+            }
+        }
+    }
 }

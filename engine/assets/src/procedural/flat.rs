@@ -75,3 +75,19 @@ pub(super) fn add_cells(mesh: &mut Mesh, first: u32, columns: u32, rows: u32) {
         }
     }
 }
+
+/// [`add_cells`] without the triangles that have shrunk to a line or a point.
+pub(super) fn add_cells_with_area(mesh: &mut Mesh, first: u32, columns: u32, rows: u32) {
+    let before = mesh.indices.len();
+    add_cells(mesh, first, columns, rows);
+    let cells = mesh.indices.split_off(before);
+    mesh.indices.extend(
+        cells
+            .chunks_exact(3)
+            .filter(|corner| {
+                let [a, b, c] = [0, 1, 2].map(|at| mesh.positions[corner[at] as usize]);
+                (b - a).cross(c - a) != Vec3::ZERO
+            })
+            .flatten(),
+    );
+}

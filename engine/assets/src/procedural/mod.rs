@@ -12,6 +12,7 @@
 //! greatest upper end.
 
 mod arch;
+mod arched_wall;
 mod cloth;
 mod column;
 mod flat;
@@ -20,12 +21,13 @@ mod sphere;
 mod sweep;
 
 pub use arch::Arch;
+pub use arched_wall::ArchedWall;
 pub use cloth::Cloth;
 pub use column::Column;
 pub use flat::{cuboid, plane};
 pub use round::{cone, cylinder, torus};
 pub use sphere::{icosphere, uv_sphere};
-pub use sweep::{Profile, revolve};
+pub use sweep::{Profile, extrude, revolve};
 
 /// The most segments along one direction of a shape.
 pub const MAX_SEGMENTS: u32 = 1024;

@@ -1,10 +1,11 @@
-//! Shapes from a profile turned around an axis.
+//! Shapes from a profile turned around an axis or drawn along one.
 
 use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::count;
+use super::flat::add_cells;
+use super::{count, length};
 use crate::Mesh;
 
 /// A point of a profile: distance from the axis, height, and the outward
@@ -79,6 +80,38 @@ impl Profile {
         self
     }
 
+    /// Adds the line through some points. Where it bends by less than `crease`
+    /// (radians) the surface is smooth, elsewhere it has an edge. Points that
+    /// repeat the one before are left out.
+    #[must_use]
+    pub fn outline(mut self, points: &[Vec2], crease: f32) -> Self {
+        let mut points = points.to_vec();
+        points.dedup();
+        let normals: Vec<Vec2> = points
+            .windows(2)
+            .map(|pair| outward(pair[1] - pair[0]))
+            .collect();
+        let mut part = Vec::new();
+        for (step, &normal) in normals.iter().enumerate() {
+            if part.is_empty() {
+                let at = points[step];
+                part.push(ProfilePoint { at, normal });
+            }
+            let at = points[step + 1];
+            match normals.get(step + 1) {
+                Some(&next) if normal.angle_to(next).abs() < crease => {
+                    let normal = (normal + next).normalize_or(normal);
+                    part.push(ProfilePoint { at, normal });
+                }
+                _ => {
+                    part.push(ProfilePoint { at, normal });
+                    self.parts.push(std::mem::take(&mut part));
+                }
+            }
+        }
+        self
+    }
+
     /// Length along the profile, without gaps between parts.
     #[must_use]
     pub fn length(&self) -> f32 {
@@ -124,6 +157,36 @@ pub fn revolve(profile: &Profile, segments: u32, uv_scale: Vec2) -> Mesh {
         for pair in rows.windows(2) {
             join_rows(&mut mesh, &pair[0], &pair[1], segments);
         }
+    }
+    mesh
+}
+
+/// A profile drawn along the x axis, `along` metres around the origin, as a
+/// plasterer draws a template along a wall: what is distance from the axis for
+/// [`revolve`] is here distance from the wall, towards +z. Open behind and at
+/// both ends, which lie in walls. Two that meet in an inner corner pass through
+/// each other, and their mitre comes by itself. Texture coordinates in metres.
+#[must_use]
+pub fn extrude(profile: &Profile, along: f32) -> Mesh {
+    let along = length(along);
+    let whole = profile.length();
+    let mut mesh = Mesh::default().named("moulding");
+    let mut risen = 0.0;
+    for part in &profile.parts {
+        let first = mesh.positions.len() as u32;
+        for (row, point) in part.iter().enumerate() {
+            if row > 0 {
+                risen += point.at.distance(part[row - 1].at);
+            }
+            for x in [-0.5 * along, 0.5 * along] {
+                mesh.positions.push(Vec3::new(x, point.at.y, point.at.x));
+                mesh.normals
+                    .push(Vec3::new(0.0, point.normal.y, point.normal.x));
+                mesh.tangents.push(Vec4::new(1.0, 0.0, 0.0, 1.0));
+                mesh.uvs.push(Vec2::new(x, whole - risen));
+            }
+        }
+        add_cells(&mut mesh, first, 1, part.len().saturating_sub(1) as u32);
     }
     mesh
 }

@@ -41,7 +41,28 @@ fn all_shapes() -> Vec<Mesh> {
         }
         .mesh(),
         Cloth::default().mesh(),
+        ArchedWall::default().mesh(),
+        ArchedWall {
+            height: 5.0,
+            segments: 9,
+            ..ArchedWall::default()
+        }
+        .mesh(),
+        extrude(&cornice(), 2.0),
+        revolve(&cornice(), 24, Vec2::ONE).named("turned cornice"),
     ]
+}
+
+/// A fillet, a hollow and a round, all smooth, under a flat band.
+fn cornice() -> Profile {
+    let round = (0..=12).map(|step| {
+        let t = step as f32 / 12.0;
+        Vec2::new(0.2 + 0.1 * t + 0.02 * (6.0 * t).sin(), 0.3 * t)
+    });
+    let mut points: Vec<Vec2> = round.collect();
+    let top = points[12];
+    points.extend([top, top + 0.1 * Vec2::X, top + Vec2::new(0.1, 0.1)]);
+    Profile::new().outline(&points, 0.5)
 }
 
 /// The triangles between positions, whatever vertices share them.
@@ -253,10 +274,39 @@ fn closed_shapes_have_the_right_topology() {
             .mesh(),
             0,
         ),
+        (ArchedWall::default().mesh(), 2),
+        (
+            ArchedWall {
+                width: 2.4,
+                radius: 1.2,
+                ..ArchedWall::default()
+            }
+            .mesh(),
+            2,
+        ),
         // Thirteen stones and the mortar behind them.
         (Arch::default().mesh(), 2 * 14),
     ] {
         assert_eq!(euler_characteristic(&mesh), expected, "{}", mesh.name);
+    }
+}
+
+#[test]
+fn outlines_are_smooth_up_to_the_crease_and_drawn_to_their_length() {
+    // A quarter of a circle in steps of 10 degrees, then a right angle.
+    let quarter = (0..=9).map(|step| Vec2::from_angle((step as f32 * 10.0).to_radians()));
+    let mut points: Vec<Vec2> = quarter.collect();
+    points.push(Vec2::new(0.0, 2.0));
+    let profile = Profile::new().outline(&points, 0.3);
+    let mesh = extrude(&profile, 3.0);
+    let length = 18.0 * (5.0_f64.to_radians()).sin() + 1.0;
+    assert!((f64::from(profile.length()) - length).abs() < 1e-6);
+    assert!((mesh.area() - 3.0 * length).abs() < 1e-5);
+    // Ten rows for the arc and two for the straight part after its edge.
+    assert_eq!(mesh.vertex_count(), 2 * (10 + 2));
+    for (position, normal) in mesh.positions.iter().zip(&mesh.normals).skip(2).take(16) {
+        let exact = Vec3::new(0.0, position.y, position.z);
+        assert!(normal.distance(exact) < 1e-5, "{normal} at {position}");
     }
 }
 
@@ -328,6 +378,13 @@ fn wild_arguments_give_harmless_meshes() {
             joint: wild,
             ..Arch::default()
         };
+        let wall = ArchedWall {
+            width: wild,
+            height: wild,
+            depth: wild,
+            radius: wild,
+            ..ArchedWall::default()
+        };
         let column = Column {
             height: wild,
             radius: wild,
@@ -352,6 +409,8 @@ fn wild_arguments_give_harmless_meshes() {
             cone(wild, wild, 0),
             torus(wild, wild, 0, 0),
             arch.mesh(),
+            wall.mesh(),
+            extrude(&cornice(), wild),
             column.mesh(),
             cloth.mesh(),
         ] {
