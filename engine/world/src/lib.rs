@@ -27,6 +27,7 @@ mod entity;
 mod error;
 pub mod fields;
 mod hierarchy;
+pub mod layouts;
 mod merge;
 mod messages;
 pub mod query;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Frustum;
-use super::compact::{Test, append_passing};
+use super::compact::{BLOCK, Test, append_passing};
 
 /// Bounding boxes along the world's axes as six arrays of the same length, in
 /// metres.
@@ -73,18 +73,39 @@ struct BoxTest<'a> {
 
 impl Test for BoxTest<'_> {
     #[inline(always)]
-    fn flags(&self, rows: Range<usize>, flags: &mut [u8]) {
-        let count = rows.len();
-        let x = &self.boxes.x[rows.clone()][..count];
-        let y = &self.boxes.y[rows.clone()][..count];
-        let z = &self.boxes.z[rows.clone()][..count];
-        let half_x = &self.boxes.half_x[rows.clone()][..count];
-        let half_y = &self.boxes.half_y[rows.clone()][..count];
-        let half_z = &self.boxes.half_z[rows][..count];
-        for (i, flag) in flags[..count].iter_mut().enumerate() {
-            let half = [half_x[i], half_y[i], half_z[i]];
-            *flag = u8::from(self.frustum.touches_box([x[i], y[i], z[i]], half));
+    fn flags(&self, rows: Range<usize>) -> [u8; BLOCK] {
+        let mut flags = [0; BLOCK];
+        let frustum = *self.frustum;
+        let boxes = self.boxes;
+        let parts = [
+            boxes.x,
+            boxes.y,
+            boxes.z,
+            boxes.half_x,
+            boxes.half_y,
+            boxes.half_z,
+        ]
+        .map(|array| &array[rows.clone()]);
+        if let [
+            Some(x),
+            Some(y),
+            Some(z),
+            Some(half_x),
+            Some(half_y),
+            Some(half_z),
+        ] = parts.map(<[f32]>::first_chunk::<BLOCK>)
+        {
+            for i in 0..BLOCK {
+                let half = [half_x[i], half_y[i], half_z[i]];
+                flags[i] = u8::from(frustum.touches_box([x[i], y[i], z[i]], half));
+            }
+        } else {
+            for (i, flag) in flags[..rows.len()].iter_mut().enumerate() {
+                let [x, y, z, half_x, half_y, half_z] = parts.map(|part| part[i]);
+                *flag = u8::from(frustum.touches_box([x, y, z], [half_x, half_y, half_z]));
+            }
         }
+        flags
     }
 }
 

@@ -10,7 +10,7 @@ use std::fmt;
 use std::ops::Range;
 
 /// Rows of a block. Its flags and its list stay in the fastest cache.
-const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 256;
 
 /// Room after the list of a block, because whole vectors are written.
 const SPARE: usize = 16;
@@ -20,11 +20,14 @@ type Positions = [u32; BLOCK + SPARE];
 
 /// A test of rows.
 pub(crate) trait Test: Sync {
-    /// Writes 1 for each row of the range that passes and 0 for the others.
+    /// 1 for each row of the range that passes and 0 for the others, and for what
+    /// follows if the range is shorter than a block.
     ///
     /// Implementations are `#[inline(always)]`, so that they are compiled with
-    /// the instructions of their caller.
-    fn flags(&self, rows: Range<usize>, flags: &mut [u8]);
+    /// the instructions of their caller. They have a loop of its own for whole
+    /// blocks: where the compiler does not know the length, it tests the last
+    /// rows one by one, which takes as long as all others together.
+    fn flags(&self, rows: Range<usize>) -> [u8; BLOCK];
 }
 
 /// Vector instructions that a processor may have.
@@ -116,14 +119,11 @@ fn append(
     list: &mut Vec<u32>,
     positions: impl Fn(&[u8; BLOCK], u32, &mut Positions) -> usize,
 ) {
-    let mut flags = [0; BLOCK];
     let mut passing = [0; BLOCK + SPARE];
     let mut first = rows.start;
     while first < rows.end {
         let end = rows.end.min(first + BLOCK);
-        // Rows after the end of a short block do not pass.
-        flags[end - first..].fill(0);
-        test.flags(first..end, &mut flags[..end - first]);
+        let flags = test.flags(first..end);
         let count = positions(&flags, first as u32, &mut passing);
         list.extend_from_slice(&passing[..count]);
         first = end;
@@ -208,10 +208,12 @@ mod tests {
     struct Passing(Vec<bool>);
 
     impl Test for Passing {
-        fn flags(&self, rows: Range<usize>, flags: &mut [u8]) {
+        fn flags(&self, rows: Range<usize>) -> [u8; BLOCK] {
+            let mut flags = [0; BLOCK];
             for (flag, passes) in flags.iter_mut().zip(&self.0[rows]) {
                 *flag = u8::from(*passes);
             }
+            flags
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::compact::{Test, append_passing};
+use super::compact::{BLOCK, Test, append_passing};
 use super::{Frustum, Volume};
 
 /// Bounding spheres as four arrays of the same length, in metres.
@@ -65,15 +65,31 @@ pub(crate) struct SphereTest<'a, V> {
 
 impl<V: Volume> Test for SphereTest<'_, V> {
     #[inline(always)]
-    fn flags(&self, rows: Range<usize>, flags: &mut [u8]) {
-        let count = rows.len();
-        let x = &self.spheres.x[rows.clone()][..count];
-        let y = &self.spheres.y[rows.clone()][..count];
-        let z = &self.spheres.z[rows.clone()][..count];
-        let radius = &self.spheres.radius[rows][..count];
-        for (i, flag) in flags[..count].iter_mut().enumerate() {
-            *flag = u8::from(self.volume.touches(x[i], y[i], z[i], radius[i]));
+    fn flags(&self, rows: Range<usize>) -> [u8; BLOCK] {
+        let mut flags = [0; BLOCK];
+        // A copy, of which the compiler knows that nobody else writes it.
+        let volume = *self.volume;
+        let x = &self.spheres.x[rows.clone()];
+        let y = &self.spheres.y[rows.clone()];
+        let z = &self.spheres.z[rows.clone()];
+        let radius = &self.spheres.radius[rows];
+        if let (Some(x), Some(y), Some(z), Some(radius)) = (
+            x.first_chunk::<BLOCK>(),
+            y.first_chunk::<BLOCK>(),
+            z.first_chunk::<BLOCK>(),
+            radius.first_chunk::<BLOCK>(),
+        ) {
+            for i in 0..BLOCK {
+                flags[i] = u8::from(volume.touches(x[i], y[i], z[i], radius[i]));
+            }
+        } else {
+            for (flag, (((x, y), z), radius)) in
+                flags.iter_mut().zip(x.iter().zip(y).zip(z).zip(radius))
+            {
+                *flag = u8::from(volume.touches(*x, *y, *z, *radius));
+            }
         }
+        flags
     }
 }
 

@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 /// A volume that can say whether a sphere may touch it.
-pub trait Volume: Sync {
+pub trait Volume: Copy + Sync {
     /// Whether a sphere may touch the volume. Never false for one that does; may
     /// be true for one that passes close by. False if the sphere has a coordinate
     /// that is not a number.
