@@ -75,7 +75,7 @@ fn collect(
             collect(project, &path, extension, depth - 1, found)?;
         } else if has_extension(name, extension)
             && check(&path).is_ok()
-            && let Ok(Some(on_disk)) = super::inside(project, &path, &path)
+            && let Ok(Some(on_disk)) = super::read::inside(project, &path, &path)
         {
             found.insert(path, Origin::Project(on_disk));
         }

@@ -17,12 +17,13 @@ mod list;
 mod observer;
 mod path;
 mod project;
+mod read;
+mod text;
 mod shipped {
     include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 }
 
 use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 pub use atomic::write_atomic;
@@ -31,9 +32,11 @@ pub use list::Listed;
 use observer::Observer;
 pub use path::{check, join};
 pub use project::{PROJECT_MARKER, create_project, find_project};
+pub use read::{MAX_FILE_BYTES, read_path};
+pub use text::decode_text;
 
-/// The largest file that is read, in bytes.
-pub const MAX_FILE_BYTES: u64 = 512 << 20;
+use read::{inside, read_limited};
+pub(crate) use text::with_plain_line_ends;
 
 /// What the path of a granted file begins with; see [`Files::grant`].
 const GRANT_PREFIX: char = '@';
@@ -173,7 +176,10 @@ impl Files {
         if let Some((root, below)) = self.granted(path)? {
             return match inside(root, below, path)? {
                 Some(on_disk) => Ok(Origin::Project(on_disk)),
-                None => Err(FileError::not_found(below, Some(root))),
+                None => Err(FileError::NotFound {
+                    path: below.to_owned(),
+                    places: format!("in {}", root.display()),
+                }),
             };
         }
         check(path)?;
@@ -192,6 +198,30 @@ impl Files {
     #[must_use]
     pub fn exists(&self, path: &str) -> bool {
         self.origin(path).is_ok()
+    }
+
+    /// A file on the disk whose name differs only in small and capital letters,
+    /// as for models that come from a system where those are the same.
+    #[must_use]
+    pub fn find_ignoring_case(&self, path: &str) -> Option<String> {
+        let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
+        let on_disk = match self.granted(path).ok()? {
+            Some((root, below)) => root.join(below),
+            None => self.project.as_ref()?.join(path),
+        };
+        let wanted = name.to_lowercase();
+        let entries = fs::read_dir(on_disk.parent()?).ok()?;
+        let names = entries
+            .flatten()
+            .filter_map(|entry| entry.file_name().into_string().ok());
+        // The first in order, so that the choice is always the same.
+        let found = names.filter(|name| name.to_lowercase() == wanted).min()?;
+        let found = if folder.is_empty() {
+            found
+        } else {
+            format!("{folder}/{found}")
+        };
+        self.exists(&found).then_some(found)
     }
 
     /// A path as the user knows it, for messages: that on the disk for granted
@@ -292,101 +322,6 @@ impl Files {
             fs::create_dir_all(folder).map_err(|error| FileError::io(folder, error))?;
         }
         Ok(target)
-    }
-}
-
-/// The real place of a file below `root`, or `None` if there is none.
-fn inside(root: &Path, below: &str, asked: &str) -> Result<Option<PathBuf>, FileError> {
-    let on_disk = root.join(below);
-    match fs::canonicalize(&on_disk) {
-        Ok(real) if !real.starts_with(root) => Err(FileError::Escapes {
-            path: asked.to_owned(),
-            leads_to: real,
-        }),
-        Ok(real) if real.is_dir() => Err(FileError::IsAFolder { path: on_disk }),
-        // A pipe or a device would block the reader for ever.
-        Ok(real) if !real.is_file() => Err(FileError::NotAFile { path: on_disk }),
-        Ok(_) => Ok(Some(on_disk)),
-        Err(error) if is_absent(&error) => Ok(None),
-        Err(error) => Err(FileError::io(&on_disk, error)),
-    }
-}
-
-/// Nothing of that name, which includes "a part of the path is no folder".
-fn is_absent(error: &std::io::Error) -> bool {
-    matches!(
-        error.kind(),
-        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory
-    )
-}
-
-/// The bytes of a file anywhere on the disk that the user named, such as a
-/// picture to compare with.
-///
-/// # Errors
-/// A file that can't be read, is a folder, or is larger than
-/// [`MAX_FILE_BYTES`].
-pub fn read_path(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
-    let path = path.as_ref();
-    let path_owned = || path.to_owned();
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err(FileError::IsAFolder { path: path_owned() }),
-        // A pipe or a device would block the reader for ever.
-        Ok(found) if !found.is_file() => Err(FileError::NotAFile { path: path_owned() }),
-        Ok(_) => read_limited(path),
-        Err(error) => Err(FileError::io(path, error)),
-    }
-}
-
-fn read_limited(path: &Path) -> Result<Vec<u8>, FileError> {
-    let file = fs::File::open(path).map_err(|error| FileError::io(path, error))?;
-    let size = file.metadata().map_or(0, |metadata| metadata.len());
-    let mut bytes = Vec::new();
-    if size <= MAX_FILE_BYTES {
-        bytes.reserve_exact(size as usize);
-        file.take(MAX_FILE_BYTES + 1)
-            .read_to_end(&mut bytes)
-            .map_err(|error| FileError::io(path, error))?;
-    }
-    if size > MAX_FILE_BYTES || bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(FileError::TooLarge {
-            path: path.to_owned(),
-            limit: MAX_FILE_BYTES >> 20,
-        });
-    }
-    Ok(bytes)
-}
-
-/// Text from bytes, as [`Files::read_text`] gives it; `path` is for messages.
-///
-/// # Errors
-/// Text that is not UTF-8, with its line.
-pub fn decode_text(path: &str, bytes: Vec<u8>) -> Result<String, FileError> {
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..valid]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count()
-            + 1;
-        FileError::NotText {
-            path: path.to_owned(),
-            line,
-        }
-    })?;
-    let text = match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_owned(),
-        None => text,
-    };
-    Ok(with_plain_line_ends(text))
-}
-
-/// Every line end as LF.
-pub(crate) fn with_plain_line_ends(text: String) -> String {
-    if text.contains('\r') {
-        text.replace("\r\n", "\n").replace('\r', "\n")
-    } else {
-        text
     }
 }
 

@@ -230,6 +230,16 @@ fn granted_files_bring_what_lies_beside_them() {
         files.grant(outside.path().join("other.obj")).unwrap(),
         "@0/other.obj"
     );
+    assert_eq!(files.find_ignoring_case("@0/MAPS/x.png"), None);
+    assert_eq!(
+        files.find_ignoring_case("@0/TEAPOT.Obj").as_deref(),
+        Some("@0/teapot.obj")
+    );
+    let message = files.read("@0/gone.mtl").unwrap_err().to_string();
+    assert!(
+        message.starts_with("there is no file `gone.mtl`, in "),
+        "{message}"
+    );
     let shown = fs::canonicalize(outside.path()).unwrap().join("teapot.obj");
     assert_eq!(files.display(&path), shown.display().to_string());
     assert!(files.read("@0/../x").is_err() && files.read("@1/x").is_err());

@@ -50,15 +50,19 @@ pub(super) fn load_libraries(
 }
 
 /// Where a file named by another one is: at its path, or else, as for absolute
-/// paths of another computer, beside the file that names it.
+/// paths of another computer, beside the file that names it; with the letters
+/// as given, or else with other capitals.
 pub(super) fn find(files: &Files, from: &str, name: &str) -> Option<String> {
     let at_path = join(from, name).ok();
     let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let beside = join(from, base).ok();
-    [at_path, beside]
-        .into_iter()
-        .flatten()
-        .find(|path| files.exists(path))
+    let places: Vec<String> = [at_path, beside].into_iter().flatten().collect();
+    let exact = places.iter().find(|path| files.exists(path)).cloned();
+    exact.or_else(|| {
+        places
+            .iter()
+            .find_map(|path| files.find_ignoring_case(path))
+    })
 }
 
 fn read_library(files: &Files, path: &str, warnings: &mut Warnings) -> Vec<Entry> {

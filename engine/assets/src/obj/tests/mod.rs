@@ -298,7 +298,8 @@ fn pictures_are_found_by_foreign_paths_but_not_outside() {
     fs::create_dir(fixture.folder.path().join("maps")).unwrap();
     fixture.png("maps/a.png", |_, _| [1, 2, 3, 255]);
     fixture.write("m/x.mtl", "newmtl a\nmap_Kd ..\\maps\\a.png\nnewmtl b\nmap_Kd C:\\Users\\me\\b.png\nnewmtl c\nmap_Kd ../../../etc/passwd\n");
-    fixture.png("m/b.png", |_, _| [4, 5, 6, 255]);
+    // Other capitals are no other file, wherever the model comes from.
+    fixture.png("m/B.PNG", |_, _| [4, 5, 6, 255]);
     fixture.write(
         "m/x.obj",
         format!(
