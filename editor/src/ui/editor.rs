@@ -1,0 +1,167 @@
+//! The editor: a workbench and the widgets around it.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use egui::mutex::RwLock;
+use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
+use lightbench::render::Gpu;
+
+use super::actions::{self, Action};
+use super::layout::{self, Panel};
+use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
+use super::screen::Screen;
+use super::workbench::Workbench;
+
+/// The state of the window's contents. [`Editor::ui`] draws it; who calls that owns the window.
+pub struct Editor {
+    /// What is edited.
+    pub workbench: Workbench,
+    pub(super) screen: Screen,
+    pub(super) layout: Tree<Panel>,
+    pub(super) passes: PassesPanel,
+    pub(super) targets: TargetsPanel,
+    pub(super) hint: bool,
+    pub(super) help: bool,
+    pub(super) about: bool,
+    quit: bool,
+}
+
+impl Editor {
+    /// An editor whose widgets are drawn by `painter` on the workbench's device.
+    pub fn new(workbench: Workbench, painter: Arc<RwLock<egui_wgpu::Renderer>>) -> Self {
+        let screen = Screen::new(workbench.gpu().device.clone(), painter);
+        Self {
+            workbench,
+            screen,
+            layout: layout::first(),
+            passes: PassesPanel::default(),
+            targets: TargetsPanel::default(),
+            hint: true,
+            help: false,
+            about: false,
+            quit: false,
+        }
+    }
+
+    /// Goes on with another device and painter; what was edited stays.
+    pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
+        self.screen = Screen::new(gpu.device.clone(), painter);
+        self.workbench.move_to(gpu);
+    }
+
+    /// Whether somebody asked to close the window.
+    pub fn wants_to_quit(&self) -> bool {
+        self.quit
+    }
+
+    /// Draws one frame of the window and does what was asked for in it.
+    pub fn ui(&mut self, ui: &mut egui::Ui) {
+        let now = Instant::now();
+        self.workbench.tick(now);
+        let ctx = ui.ctx().clone();
+        actions::keyboard(self, &ctx);
+
+        egui::Panel::top("menu").show(ui, |ui| panels::menu::show(self, ui));
+        egui::Panel::top("toolbar").show(ui, |ui| panels::toolbar::show(self, ui));
+        egui::Panel::bottom("status").show(ui, |ui| panels::status::show(self, ui));
+        egui::CentralPanel::no_frame().show(ui, |ui| {
+            // The panels need the editor, and the tree is a part of it.
+            let mut tree =
+                std::mem::replace(&mut self.layout, Tree::empty(egui::Id::unique("moved")));
+            tree.ui(&mut Panels { editor: self, now }, ui);
+            if self.layout.is_empty() {
+                self.layout = tree;
+            }
+        });
+        panels::help::show(self, &ctx);
+
+        if let Some(due) = self.workbench.next_due(now) {
+            ctx.request_repaint_after(due);
+        }
+    }
+
+    /// Does what a menu or a key asks for.
+    pub fn perform(&mut self, action: Action, ctx: &egui::Context) {
+        let workbench = &mut self.workbench;
+        match action {
+            Action::PlayPause => workbench.clock.playing = !workbench.clock.playing,
+            Action::Step => {
+                workbench.clock.playing = false;
+                workbench.clock.step();
+            }
+            Action::Rewind => workbench.clock.rewind(),
+            Action::Frame => workbench.frame_scene(),
+            Action::ResetCamera => workbench.camera.reset(),
+            Action::NextPipeline => self.select_beside(1),
+            Action::PreviousPipeline => self.select_beside(-1),
+            Action::Reload => workbench.reload(),
+            Action::Toggle(panel) => {
+                let visible = layout::is_visible(&self.layout, panel);
+                layout::set_visible(&mut self.layout, panel, !visible);
+            }
+            Action::ResetLayout => self.layout = layout::first(),
+            Action::SwitchTheme => {
+                let dark = ctx.theme() == egui::Theme::Dark;
+                let other = if dark {
+                    egui::Theme::Light
+                } else {
+                    egui::Theme::Dark
+                };
+                ctx.set_theme(other);
+            }
+            Action::Help => self.help = !self.help,
+            Action::About => self.about = true,
+            Action::Quit => self.quit = true,
+        }
+    }
+
+    fn select_beside(&mut self, by: isize) {
+        let workbench = &mut self.workbench;
+        let selected = workbench.pipelines.selected().to_owned();
+        let next = workbench.library.pipeline_beside(&selected, by);
+        if let Some(next) = next.map(str::to_owned) {
+            workbench.select_pipeline(&next);
+        }
+    }
+}
+
+/// Draws the panels of the tree.
+struct Panels<'a> {
+    editor: &'a mut Editor,
+    now: Instant,
+}
+
+impl egui_tiles::Behavior<Panel> for Panels<'_> {
+    fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, panel: &mut Panel) -> UiResponse {
+        if *panel == Panel::Viewport {
+            panels::viewport::show(self.editor, ui, self.now);
+            return UiResponse::None;
+        }
+        let frame = egui::Frame::new().inner_margin(egui::Margin::same(8));
+        frame.show(ui, |ui| match panel {
+            Panel::Targets => panels::targets::show(self.editor, ui),
+            Panel::Passes => panels::passes::show(self.editor, ui, self.now),
+            Panel::Pipeline => panels::parameters::pipeline(self.editor, ui),
+            Panel::Scene => panels::parameters::scene(self.editor, ui),
+            Panel::Log => panels::log::show(self.editor, ui),
+            Panel::Viewport => {}
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, panel: &Panel) -> egui::WidgetText {
+        panel.title().into()
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions {
+            all_panes_must_have_tabs: true,
+            ..SimplificationOptions::default()
+        }
+    }
+
+    fn gap_width(&self, _: &egui::Style) -> f32 {
+        4.0
+    }
+}

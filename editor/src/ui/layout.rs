@@ -1,0 +1,92 @@
+//! Which panels there are and how they lie.
+
+use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
+
+/// A panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Panel {
+    /// The picture.
+    Viewport,
+    /// Any target of any pass.
+    Targets,
+    /// The passes and their cost.
+    Passes,
+    /// Parameters of the pipeline.
+    Pipeline,
+    /// Parameters of the scene.
+    Scene,
+    /// What happened.
+    Log,
+}
+
+impl Panel {
+    /// The words on its tab.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Viewport => "Viewport",
+            Self::Targets => "Targets",
+            Self::Passes => "Passes",
+            Self::Pipeline => "Pipeline",
+            Self::Scene => "Scene",
+            Self::Log => "Log",
+        }
+    }
+}
+
+/// The layout of the first start: the picture large, numbers at its right, the log below.
+pub fn first() -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let mut tabs = |panels: &[Panel]| {
+        let panes = panels
+            .iter()
+            .map(|panel| tiles.insert_pane(*panel))
+            .collect();
+        tiles.insert_tab_tile(panes)
+    };
+    let viewport = tabs(&[Panel::Viewport]);
+    let log = tabs(&[Panel::Log]);
+    let parameters = tabs(&[Panel::Pipeline, Panel::Scene]);
+    let passes = tabs(&[Panel::Passes]);
+    let targets = tabs(&[Panel::Targets]);
+    let left = split(
+        &mut tiles,
+        LinearDir::Vertical,
+        &[(viewport, 0.8), (log, 0.2)],
+    );
+    let right = split(
+        &mut tiles,
+        LinearDir::Vertical,
+        &[(parameters, 0.3), (passes, 0.33), (targets, 0.37)],
+    );
+    let root = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(left, 0.68), (right, 0.32)],
+    );
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
+    let mut linear = Linear::new(dir, parts.iter().map(|(id, _)| *id).collect());
+    for (id, share) in parts {
+        linear.shares.set_share(*id, *share);
+    }
+    tiles.insert_new(Tile::Container(Container::Linear(linear)))
+}
+
+/// Whether a panel is shown.
+pub fn is_visible(tree: &Tree<Panel>, panel: Panel) -> bool {
+    tree.tiles
+        .find_pane(&panel)
+        .is_some_and(|id| tree.tiles.is_visible(id))
+}
+
+/// Shows a panel or hides it.
+pub fn set_visible(tree: &mut Tree<Panel>, panel: Panel, visible: bool) {
+    if let Some(id) = tree.tiles.find_pane(&panel) {
+        tree.set_visible(id, visible);
+        if visible {
+            tree.make_active(|other, _| other == id);
+        }
+    }
+}

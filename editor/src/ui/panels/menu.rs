@@ -1,0 +1,65 @@
+//! The menu bar: the table of actions, drawn.
+
+use egui::{Button, MenuBar, Ui};
+
+use crate::ui::actions::{Action, MENUS};
+use crate::ui::editor::Editor;
+use crate::ui::layout;
+
+/// Draws the menu bar.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    MenuBar::new().ui(ui, |ui| {
+        for (title, groups) in &MENUS {
+            ui.menu_button(*title, |ui| {
+                ui.set_min_width(230.0);
+                if *title == "Pipeline" {
+                    pipelines(editor, ui);
+                }
+                for (index, group) in groups.iter().enumerate() {
+                    if index > 0 {
+                        ui.separator();
+                    }
+                    for entry in *group {
+                        let mark = match entry.action {
+                            Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
+                            _ => false,
+                        };
+                        let mut button = Button::new(entry.title).selected(mark);
+                        if let Some(shortcut) = &entry.shortcut {
+                            button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+                        }
+                        if ui.add(button).clicked() {
+                            let ctx = ui.ctx().clone();
+                            editor.perform(entry.action, &ctx);
+                            ui.close();
+                        }
+                    }
+                }
+            });
+        }
+    });
+}
+
+/// All pipelines with the keys of the first nine.
+fn pipelines(editor: &mut Editor, ui: &mut Ui) {
+    let selected = editor.workbench.pipelines.selected().to_owned();
+    let mut wanted = None;
+    for (index, entry) in editor.workbench.library.pipelines.iter().enumerate() {
+        let mut button = Button::new(&entry.title).selected(entry.name == selected);
+        if index < 9 {
+            button = button.shortcut_text((index + 1).to_string());
+        }
+        let response = ui.add(button);
+        if response.clicked() {
+            wanted = Some(entry.name.clone());
+            ui.close();
+        }
+        if !entry.description.is_empty() {
+            response.on_hover_text(&entry.description);
+        }
+    }
+    ui.separator();
+    if let Some(name) = wanted {
+        editor.workbench.select_pipeline(&name);
+    }
+}

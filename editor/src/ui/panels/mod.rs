@@ -1,0 +1,12 @@
+//! The panels of the window.
+
+pub mod help;
+pub mod log;
+pub mod menu;
+pub mod parameters;
+pub mod passes;
+pub mod status;
+pub mod targets;
+pub mod toolbar;
+pub mod viewport;
+mod widgets;

@@ -1,0 +1,156 @@
+//! Parameters as widgets: of the pipeline and of the scene.
+
+use egui::{Align, ComboBox, Layout, RichText, ScrollArea, Slider, TextEdit, Ui};
+use lightbench::script::SettingValue;
+
+use super::widgets::words;
+use crate::ui::editor::Editor;
+use crate::ui::workbench::fields::{Field, FieldKind};
+
+/// What somebody did to a field.
+enum Change {
+    Set(SettingValue),
+    Reset,
+}
+
+/// Draws the parameters of the selected pipeline.
+pub fn pipeline(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let selected = workbench.pipelines.selected().to_owned();
+    let Some(slot) = workbench.pipelines.slot(&selected) else {
+        return;
+    };
+    let Some(desc) = slot.desc() else {
+        ui.label(RichText::new("The pipeline is not built yet.").weak());
+        return;
+    };
+    let description = desc.description.clone();
+    let fields = Field::of_pipeline(&desc.parameters, &slot.settings);
+    if let Some((name, change)) = list(ui, &description, &fields) {
+        match change {
+            Change::Set(value) => workbench.pipelines.set(&name, value),
+            Change::Reset => workbench.pipelines.unset(&name),
+        }
+    }
+}
+
+/// Draws the parameters of the scene.
+pub fn scene(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let scenes = &mut workbench.scenes;
+    let Some(scene) = scenes.scene() else {
+        ui.label(RichText::new("The scene is not loaded yet.").weak());
+        return;
+    };
+    let settings = scenes.settings().cloned().unwrap_or_default();
+    let fields = Field::of_scene(&scene.parameters, &settings);
+    let entry = workbench.library.scene(scenes.selected());
+    let description = entry.map_or(String::new(), |entry| entry.description.clone());
+    if let Some((name, change)) = list(ui, &description, &fields) {
+        match change {
+            Change::Set(value) => scenes.set(&name, value),
+            Change::Reset => scenes.unset(&name),
+        }
+    }
+}
+
+/// Draws all fields and returns the one that changed.
+fn list(ui: &mut Ui, description: &str, fields: &[Field]) -> Option<(String, Change)> {
+    let mut changed = None;
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if !description.is_empty() {
+            ui.label(RichText::new(description).weak());
+            ui.add_space(4.0);
+        }
+        if fields.is_empty() {
+            ui.label(RichText::new("There are no parameters.").weak());
+        }
+        for field in fields {
+            if let Some(change) = row(ui, field) {
+                changed = Some((field.name.clone(), change));
+            }
+        }
+    });
+    changed
+}
+
+fn row(ui: &mut Ui, field: &Field) -> Option<Change> {
+    let mut change = None;
+    let about = if field.description.is_empty() {
+        format!("Name in scripts: {}", field.name)
+    } else {
+        format!("{}\nName in scripts: {}", field.description, field.name)
+    };
+    ui.horizontal(|ui| {
+        let width = (ui.available_width() * 0.36).clamp(90.0, 170.0);
+        let label = ui.allocate_ui_with_layout(
+            egui::vec2(width, ui.spacing().interact_size.y),
+            Layout::left_to_right(Align::Center),
+            |ui| {
+                ui.set_min_width(width);
+                let label = egui::Label::new(words(&field.name)).truncate();
+                ui.add(label).on_hover_text(&about)
+            },
+        );
+        let id = label.inner.id;
+        change = widget(ui, field, id);
+        if field.is_changed() {
+            let text = format!("Back to {}", field.default);
+            let reset = ui.small_button("Reset").on_hover_text(text);
+            if reset.clicked() {
+                change = Some(Change::Reset);
+            }
+        }
+    });
+    change
+}
+
+fn widget(ui: &mut Ui, field: &Field, label: egui::Id) -> Option<Change> {
+    match (&field.kind, &field.value) {
+        (FieldKind::Number { min, max, whole }, value) => {
+            let mut number = value.to_string().parse().unwrap_or(*min);
+            let mut slider = Slider::new(&mut number, *min..=*max);
+            if *whole {
+                slider = slider.integer();
+            } else {
+                slider = slider.max_decimals(3);
+            }
+            if !field.unit.is_empty() {
+                slider = slider.suffix(format!(" {}", field.unit));
+            }
+            let response = ui.add(slider).labelled_by(label);
+            response.changed().then(|| Change::Set(number.into()))
+        }
+        (FieldKind::Switch, value) => {
+            let mut on = *value == SettingValue::Switch(true);
+            let response = ui.checkbox(&mut on, "").labelled_by(label);
+            response.changed().then(|| Change::Set(on.into()))
+        }
+        (FieldKind::Choice { options }, value) => {
+            let now = value.to_string();
+            let mut wanted = now.clone();
+            let combo = ComboBox::from_id_salt(("choice", &field.name)).selected_text(&now);
+            let response = combo.show_ui(ui, |ui| {
+                for option in options {
+                    ui.selectable_value(&mut wanted, option.clone(), option);
+                }
+            });
+            response.response.labelled_by(label);
+            (wanted != now).then(|| Change::Set(wanted.into()))
+        }
+        (FieldKind::Text, value) => {
+            let id = ui.scope_id().with(("text", &field.name));
+            let kept: Option<String> = ui.data(|data| data.get_temp(id));
+            let mut text = kept.unwrap_or_else(|| value.to_string());
+            let response = ui.add(TextEdit::singleline(&mut text)).labelled_by(label);
+            if response.has_focus() {
+                // Half a path is no path: it counts when the field is left.
+                ui.data_mut(|data| data.insert_temp(id, text));
+                return None;
+            }
+            ui.data_mut(|data| data.remove_temp::<String>(id));
+            let done = response.lost_focus() && text != value.to_string();
+            done.then(|| Change::Set(text.into()))
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The passes of the pipeline on screen and what each costs.
+
+use std::time::{Duration, Instant};
+
+use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+use egui_extras::{Column, TableBuilder};
+use lightbench::render::PassStatistics;
+
+use super::widgets::{MISSING, bytes, count, ms, sparkline};
+use crate::ui::editor::Editor;
+use crate::ui::theme::Palette;
+
+/// How often the numbers change: often enough to follow, seldom enough to read.
+const REFRESH: Duration = Duration::from_millis(250);
+
+/// One row.
+#[derive(Clone, Debug, Default)]
+struct Row {
+    name: String,
+    kind: &'static str,
+    gpu_ms: Option<f64>,
+    cpu_ms: Option<f64>,
+    fragments: Option<u64>,
+    cost: PassStatistics,
+}
+
+/// What the panel shows at the moment.
+#[derive(Default)]
+pub struct PassesPanel {
+    rows: Vec<Row>,
+    target_bytes: u64,
+    pipeline: String,
+    refreshed: Option<Instant>,
+}
+
+impl PassesPanel {
+    fn refresh(&mut self, editor: &mut crate::ui::workbench::Workbench, now: Instant) {
+        let shown = editor.pipelines.shown().unwrap_or_default().to_owned();
+        let due = self.refreshed.is_none_or(|at| now - at >= REFRESH);
+        if !due && shown == self.pipeline {
+            return;
+        }
+        self.refreshed = Some(now);
+        self.pipeline = shown;
+        self.rows.clear();
+        let statistics = editor.statistics().clone();
+        self.target_bytes = statistics.target_bytes;
+        let Some(pipeline) = editor.pipelines.shown_pipeline() else {
+            return;
+        };
+        for (index, pass) in pipeline.desc.passes.iter().enumerate() {
+            let times = editor.timings.passes.get(index);
+            self.rows.push(Row {
+                name: pass.name.clone(),
+                kind: pass.kind.name(),
+                gpu_ms: times.and_then(|times| times.gpu_ms.median()),
+                cpu_ms: times.and_then(|times| times.cpu_ms.median()),
+                fragments: times.and_then(|times| times.fragments),
+                cost: statistics.passes.get(index).cloned().unwrap_or_default(),
+            });
+        }
+    }
+}
+
+/// Draws the pass list.
+pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
+    editor.passes.refresh(&mut editor.workbench, now);
+    let panel = &editor.passes;
+    let workbench = &editor.workbench;
+    let palette = Palette::of(ui);
+    let missing = &workbench.gpu().summary.missing;
+    let why = |feature: &str| {
+        let lost = missing.iter().find(|text| text.starts_with(feature));
+        lost.map_or_else(
+            || "Not measured yet.".to_owned(),
+            |text| format!("This adapter lacks {text}."),
+        )
+    };
+    let (no_time, no_count) = (why("timestamp"), why("pipeline statistics"));
+
+    totals(editor, ui, palette);
+    ui.add_space(4.0);
+    let slowest = panel.rows.iter().filter_map(|row| row.gpu_ms);
+    let slowest = slowest.fold(0.0_f64, f64::max);
+    let height = 20.0;
+    ScrollArea::horizontal().show(ui, |ui| {
+        let columns = [60.0, 66.0, 54.0, 44.0, 72.0, 72.0, 72.0, 72.0];
+        let mut table = TableBuilder::new(ui).striped(true).column(
+            Column::auto_with_initial_suggestion(96.0)
+                .at_least(80.0)
+                .clip(true),
+        );
+        for width in columns {
+            table = table.column(Column::exact(width));
+        }
+        let titles = [
+            ("Pass", "In the order in which they run."),
+            (
+                "",
+                "GPU time of the last frames, to the slowest pass's height.",
+            ),
+            ("GPU ms", "Time on the GPU, median of the last frames."),
+            (
+                "CPU ms",
+                "Time to record the pass, median of the last frames.",
+            ),
+            ("Draws", "Draw calls."),
+            (
+                "Triangles",
+                "Sent to the rasteriser, before clipping and culling.",
+            ),
+            ("Fragments", "Fragments shaded, as the driver counts them."),
+            (
+                "Read",
+                "Bytes read from targets: modelled from formats and sizes.",
+            ),
+            (
+                "Written",
+                "Bytes written to targets: modelled from formats and sizes.",
+            ),
+        ];
+        table
+            .header(height, |mut header| {
+                for (index, (title, about)) in titles.into_iter().enumerate() {
+                    header.col(|ui| {
+                        let layout = if index == 0 {
+                            Layout::left_to_right(Align::Center)
+                        } else {
+                            Layout::right_to_left(Align::Center)
+                        };
+                        ui.with_layout(layout, |ui| {
+                            ui.label(RichText::new(title).small().weak())
+                                .on_hover_text(about);
+                        });
+                    });
+                }
+            })
+            .body(|body| {
+                body.rows(height, panel.rows.len(), |mut table_row| {
+                    let index = table_row.index();
+                    let row = &panel.rows[index];
+                    table_row.col(|ui| {
+                        ui.label(&row.name).on_hover_text(row.kind);
+                    });
+                    table_row.col(|ui| {
+                        if let Some(times) = workbench.timings.passes.get(index) {
+                            sparkline(ui, vec2(58.0, 16.0), &times.gpu_ms, slowest, palette.gpu);
+                        }
+                    });
+                    let mut cell = |text: String, why: &str| {
+                        table_row.col(|ui| {
+                            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                                let missing = text == MISSING;
+                                let text = RichText::new(text).monospace();
+                                let response = ui.label(if missing { text.weak() } else { text });
+                                if missing {
+                                    response.on_hover_text(why);
+                                }
+                            });
+                        });
+                    };
+                    cell(ms(row.gpu_ms), &no_time);
+                    cell(ms(row.cpu_ms), "Not recorded yet.");
+                    cell(row.cost.draws.to_string(), "");
+                    cell(count(row.cost.triangles), "");
+                    cell(row.fragments.map_or(MISSING.to_owned(), count), &no_count);
+                    cell(bytes(row.cost.traffic.read), "");
+                    cell(bytes(row.cost.traffic.written), "");
+                });
+            });
+    });
+}
+
+/// The whole frame, and how its GPU time is shared out between the passes.
+fn totals(editor: &Editor, ui: &mut Ui, palette: Palette) {
+    let panel = &editor.passes;
+    let timings = &editor.workbench.timings;
+    ui.horizontal(|ui| {
+        let value =
+            |label: &str, text: String| RichText::new(format!("{label} {text}")).monospace();
+        ui.label(value(
+            "GPU",
+            format!("{:>7} ms", ms(timings.gpu_ms.median())),
+        ));
+        ui.label(value(
+            "CPU",
+            format!("{:>6} ms", ms(timings.cpu_ms.median())),
+        ));
+        ui.label(value("targets", bytes(panel.target_bytes)));
+    });
+    let total: f64 = panel.rows.iter().filter_map(|row| row.gpu_ms).sum();
+    if total <= 0.0 {
+        return;
+    }
+    let size = vec2(ui.available_width(), 10.0);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let mut left = rect.left();
+    for (index, row) in panel.rows.iter().enumerate() {
+        let Some(gpu_ms) = row.gpu_ms else {
+            continue;
+        };
+        let share = gpu_ms / total;
+        let right = left + share as f32 * rect.width();
+        let part = egui::Rect::from_x_y_ranges(left..=right, rect.y_range());
+        let shade = if index % 2 == 0 { 1.0 } else { 0.6 };
+        ui.painter()
+            .rect_filled(part, 1.0, palette.gpu.gamma_multiply(shade));
+        let id = ui.scope_id().with(("share", index));
+        ui.interact(part, id, Sense::hover()).on_hover_text(format!(
+            "{}: {:.0} % of the GPU time",
+            row.name,
+            share * 100.0
+        ));
+        left = right;
+    }
+}

@@ -1,0 +1,213 @@
+//! Any target as it is after any pass.
+
+use egui::{Color32, ComboBox, DragValue, Rect, RichText, Sense, TextureOptions, Ui, pos2};
+use lightbench::render::PipelineDesc;
+use lightbench::render::inspect::{Channels, ColorMap, Inspection};
+
+use super::widgets::bytes;
+use crate::ui::editor::Editor;
+use crate::ui::screen::Place;
+use crate::ui::workbench::Workbench;
+
+/// What was chosen in the panel.
+#[derive(Default)]
+pub struct TargetsPanel {
+    /// After which pass; the last one where none is chosen.
+    pass: Option<String>,
+    target: Option<String>,
+    /// The pipeline whose target is looked at; another pipeline begins with what suits it.
+    pipeline: String,
+}
+
+const CHANNELS: [(Channels, &str); 5] = [
+    (Channels::Color, "Colour"),
+    (Channels::Red, "Red"),
+    (Channels::Green, "Green"),
+    (Channels::Blue, "Blue"),
+    (Channels::Alpha, "Alpha"),
+];
+
+const MAPS: [(ColorMap, &str); 3] = [
+    (ColorMap::Light, "Light"),
+    (ColorMap::Data, "Data"),
+    (ColorMap::FalseColor, "False colour"),
+];
+
+/// Draws the target viewer.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let far = far_of(workbench);
+    let Some(desc) = workbench.pipelines.shown_pipeline().map(|p| p.desc.clone()) else {
+        ui.label(RichText::new("No pipeline is ready.").weak());
+        return;
+    };
+    let panel = &mut editor.targets;
+    let before = workbench.inspection();
+    let known = panel.pipeline == desc.name;
+    panel.pipeline.clone_from(&desc.name);
+    let mut request = before.clone().filter(|request| {
+        known && desc.target(&request.target).is_some() && request.pass < desc.passes.len()
+    });
+    choose(panel, ui, &desc, &mut request, far);
+    if let Some(request) = &mut request {
+        how(ui, request, &desc, far);
+    }
+    if request != before {
+        workbench.inspect(request.clone());
+    }
+    if let Some(request) = &request {
+        picture(editor, ui, &desc, request);
+    } else {
+        let text = "Choose a target to see it as it is after a pass.";
+        ui.label(RichText::new(text).weak());
+    }
+}
+
+/// The distance at which depth is shown brightest.
+fn far_of(workbench: &Workbench) -> f32 {
+    let radius = workbench
+        .scene_bounds()
+        .map(|(min, max)| (max - min).length());
+    radius.unwrap_or(10.0).clamp(0.1, 1e6)
+}
+
+/// Which target, after which pass.
+fn choose(
+    panel: &mut TargetsPanel,
+    ui: &mut Ui,
+    desc: &PipelineDesc,
+    request: &mut Option<Inspection>,
+    far: f32,
+) {
+    let last = desc.passes.len().saturating_sub(1);
+    let find = |name: &Option<String>| {
+        let name = name.as_ref()?;
+        desc.passes.iter().position(|pass| pass.name == *name)
+    };
+    let pass = find(&panel.pass).unwrap_or(last);
+    let target = panel
+        .target
+        .clone()
+        .filter(|name| desc.target(name).is_some());
+    let (mut new_pass, mut new_target) = (pass, target.clone());
+    ui.horizontal_wrapped(|ui| {
+        ComboBox::from_label("Target")
+            .selected_text(target.as_deref().unwrap_or("none"))
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut new_target, None, "none");
+                for entry in &desc.targets {
+                    ui.selectable_value(&mut new_target, Some(entry.name.clone()), &entry.name)
+                        .on_hover_text(entry.format.name());
+                }
+            });
+        ComboBox::from_label("After pass")
+            .selected_text(desc.passes.get(pass).map_or("", |pass| pass.name.as_str()))
+            .show_ui(ui, |ui| {
+                for (index, entry) in desc.passes.iter().enumerate() {
+                    ui.selectable_value(&mut new_pass, index, &entry.name);
+                }
+            });
+    });
+    let same = new_pass == pass && new_target == target;
+    if same && request.is_some() == target.is_some() {
+        return;
+    }
+    if new_pass != pass {
+        panel.pass = desc.passes.get(new_pass).map(|pass| pass.name.clone());
+    }
+    panel.target.clone_from(&new_target);
+    let kept = request
+        .take()
+        .filter(|old| Some(&old.target) == new_target.as_ref());
+    *request = match (kept, new_target) {
+        (_, None) => None,
+        (Some(old), _) => Some(Inspection {
+            pass: new_pass,
+            ..old
+        }),
+        (None, Some(target)) => Inspection::suited(desc, new_pass, &target, far),
+    };
+}
+
+/// Channels, map and range.
+fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
+    let Some(target) = desc.target(&request.target) else {
+        return;
+    };
+    let depth = target.format.is_depth();
+    let channels = usize::from(target.format.0.components());
+    ui.horizontal_wrapped(|ui| {
+        if !depth && channels > 1 {
+            let selected = CHANNELS
+                .iter()
+                .find(|(value, _)| *value == request.channels);
+            ComboBox::from_label("Channels")
+                .width(80.0)
+                .selected_text(selected.map_or("", |(_, name)| *name))
+                .show_ui(ui, |ui| {
+                    for (value, name) in CHANNELS.iter().take(channels + 1) {
+                        ui.selectable_value(&mut request.channels, *value, *name);
+                    }
+                });
+        }
+        let selected = MAPS.iter().find(|(value, _)| *value == request.map);
+        ComboBox::from_label("Map")
+            .width(90.0)
+            .selected_text(selected.map_or("", |(_, name)| *name))
+            .show_ui(ui, |ui| {
+                for (value, name) in MAPS {
+                    ui.selectable_value(&mut request.map, value, name);
+                }
+            });
+        let label = ui.label(if depth { "Range, m" } else { "Range" });
+        let speed = f64::from((request.high - request.low).abs().max(1e-3)) * 0.01;
+        let low = DragValue::new(&mut request.low)
+            .speed(speed)
+            .max_decimals(3);
+        ui.add(low).labelled_by(label.id);
+        let high = DragValue::new(&mut request.high)
+            .speed(speed)
+            .max_decimals(3);
+        ui.add(high).labelled_by(label.id);
+        if ui
+            .button("Suit")
+            .on_hover_text("The range that suits the format.")
+            .clicked()
+            && let Some(suited) = Inspection::suited(desc, request.pass, &request.target, far)
+        {
+            *request = suited;
+        }
+    });
+}
+
+fn picture(editor: &mut Editor, ui: &mut Ui, desc: &PipelineDesc, request: &Inspection) {
+    let Some(texture) = editor.workbench.inspected() else {
+        ui.label(RichText::new("The next frame shows it.").weak());
+        return;
+    };
+    let format = desc.target(&request.target).map(|target| target.format);
+    let (width, height) = (texture.width(), texture.height());
+    if let Some(format) = format {
+        let size = u64::from(width) * u64::from(height) * u64::from(format.bytes_per_texel());
+        let text = format!("{width} x {height}  {}  {}", format.name(), bytes(size));
+        ui.label(RichText::new(text).monospace().small());
+    }
+    let available = ui.available_size();
+    let aspect = width as f32 / height.max(1) as f32;
+    let size = if available.x / available.y.max(1.0) > aspect {
+        egui::vec2(available.y * aspect, available.y)
+    } else {
+        egui::vec2(available.x, available.x / aspect)
+    };
+    if size.x < 1.0 || size.y < 1.0 {
+        return;
+    }
+    let options = TextureOptions {
+        magnification: egui::TextureFilter::Nearest,
+        ..TextureOptions::LINEAR
+    };
+    let id = editor.screen.show(Place::Targets, &texture, options);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    ui.painter().image(id, rect, whole, Color32::WHITE);
+}

@@ -1,0 +1,138 @@
+//! Scene, pipeline and time at a glance.
+
+use egui::{Align, Button, ComboBox, DragValue, Layout, RichText, Ui};
+
+use crate::ui::actions::{Action, shortcut_text};
+use crate::ui::editor::Editor;
+use crate::ui::theme::Palette;
+
+/// Draws the toolbar.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    ui.add_space(1.0);
+    ui.horizontal(|ui| {
+        scene(editor, ui);
+        ui.separator();
+        pipeline(editor, ui);
+        ui.separator();
+        time(editor, ui);
+        ui.separator();
+        camera(editor, ui);
+    });
+    ui.add_space(1.0);
+}
+
+fn scene(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let selected = workbench.scenes.selected().to_owned();
+    let entries = &workbench.library.scenes;
+    let title = |name: &str| {
+        let entry = entries.iter().find(|entry| entry.name == name);
+        entry.map_or_else(|| name.to_owned(), |entry| entry.title.clone())
+    };
+    let mut wanted = None;
+    ComboBox::from_label("Scene")
+        .selected_text(title(&selected))
+        .width(150.0)
+        .show_ui(ui, |ui| {
+            for entry in entries {
+                let response = ui.selectable_label(entry.name == selected, &entry.title);
+                if response.clicked() {
+                    wanted = Some(entry.name.clone());
+                }
+                if !entry.description.is_empty() {
+                    response.on_hover_text(&entry.description);
+                }
+            }
+        });
+    if let Some(name) = wanted {
+        workbench.select_scene(&name);
+    }
+}
+
+fn pipeline(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let selected = workbench.pipelines.selected().to_owned();
+    let mut wanted = None;
+    let response = ComboBox::from_label("Pipeline")
+        .selected_text(workbench.library.pipeline_title(&selected).to_owned())
+        .width(210.0)
+        .show_ui(ui, |ui| {
+            for (index, entry) in workbench.library.pipelines.iter().enumerate() {
+                let mut text = RichText::new(&entry.title);
+                if entry.problem.is_some() {
+                    text = text.color(Palette::of(ui).error);
+                }
+                let mut button = Button::selectable(entry.name == selected, text);
+                if index < 9 {
+                    button = button.shortcut_text((index + 1).to_string());
+                }
+                let response = ui.add(button);
+                if response.clicked() {
+                    wanted = Some(entry.name.clone());
+                }
+                let about = match &entry.problem {
+                    Some(problem) => problem.to_string(),
+                    None => entry.description.clone(),
+                };
+                if !about.is_empty() {
+                    response.on_hover_text(about);
+                }
+            }
+        });
+    response
+        .response
+        .on_hover_text("Keys 1 to 9, [ and ]. Scene, camera and time stay.");
+    if workbench.pipelines.is_busy() {
+        ui.spinner();
+    }
+    if let Some(name) = wanted {
+        workbench.select_pipeline(&name);
+    }
+}
+
+fn time(editor: &mut Editor, ui: &mut Ui) {
+    let playing = editor.workbench.clock.playing;
+    let label = if playing { "Pause" } else { "Play" };
+    button(editor, ui, label, Action::PlayPause);
+    button(editor, ui, "Step", Action::Step);
+    button(editor, ui, "Rewind", Action::Rewind);
+    let time = editor.workbench.clock.time();
+    let label = ui.label("Speed");
+    let speed = DragValue::new(&mut editor.workbench.clock.speed)
+        .range(0.0..=10.0)
+        .speed(0.01)
+        .fixed_decimals(2)
+        .suffix(" x");
+    ui.add(speed).labelled_by(label.id);
+    ui.label(RichText::new(format!("{time:9.3} s")).monospace());
+}
+
+fn camera(editor: &mut Editor, ui: &mut Ui) {
+    button(editor, ui, "Frame", Action::Frame);
+    let moved = editor.workbench.camera.is_moved();
+    ui.add_enabled_ui(moved, |ui| {
+        button(editor, ui, "Reset camera", Action::ResetCamera);
+    });
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.label("m/s");
+        let mut speed = editor.workbench.camera.speed;
+        let field = DragValue::new(&mut speed)
+            .range(0.01..=10_000.0)
+            .speed(0.05);
+        let response = ui.add(field.max_decimals(2));
+        let label = ui.label("Flying speed");
+        response.labelled_by(label.id);
+        editor.workbench.camera.speed = speed;
+    });
+}
+
+fn button(editor: &mut Editor, ui: &mut Ui, label: &str, action: Action) {
+    let mut response = ui.button(label);
+    if let Some(key) = shortcut_text(ui.ctx(), action) {
+        response = response.on_hover_text(key);
+    }
+    if response.clicked() {
+        let ctx = ui.ctx().clone();
+        editor.perform(action, &ctx);
+    }
+}

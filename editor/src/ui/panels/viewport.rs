@@ -1,0 +1,223 @@
+//! The picture, the camera's controls, and what stands over the picture.
+
+use std::time::Instant;
+
+use egui::{
+    Align2, Color32, CornerRadius, FontId, Id, Key, Margin, PointerButton, Pos2, Rect, Response,
+    RichText, Sense, TextureOptions, Ui, vec2,
+};
+use lightbench::render::Problem;
+use lightbench::world::glam::{Vec2, Vec3};
+
+use crate::ui::editor::Editor;
+use crate::ui::screen::Place;
+use crate::ui::theme::Palette;
+
+/// Radians that a drag over one point turns.
+const TURN: f32 = 0.006;
+
+/// Problems shown over the picture; all are in the log.
+const MOST_PROBLEMS: usize = 4;
+
+/// Draws the viewport.
+pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
+    let rect = ui.available_rect_before_wrap();
+    let response = ui.allocate_rect(rect, Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Viewport"));
+    steer(editor, ui, &response);
+
+    let pixels = rect.size() * ui.ctx().pixels_per_point();
+    let size = (pixels.x.round() as u32, pixels.y.round() as u32);
+    let picture = editor.workbench.draw(size, now);
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, CornerRadius::ZERO, ui.visuals().extreme_bg_color);
+    let scale = picture.as_ref().map(|picture| picture.scale);
+    if let Some(picture) = picture {
+        // A smaller picture is stretched; one of the same size is shown texel for pixel.
+        let options = TextureOptions::LINEAR;
+        let id = editor
+            .screen
+            .show(Place::Viewport, &picture.texture, options);
+        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+        painter.image(id, rect, whole, Color32::WHITE);
+    }
+
+    problems(editor, ui, rect);
+    loading(editor, ui, rect, scale.is_some());
+    if let Some(scale) = scale.filter(|scale| *scale < 1.0) {
+        let text = format!("{:.0} % resolution while moving", scale * 100.0);
+        note(ui, rect, Align2::RIGHT_TOP, &text);
+    }
+    if editor.hint {
+        hint(editor, ui, rect);
+    }
+}
+
+/// Mouse and keys to camera.
+fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
+    let camera = &mut editor.workbench.camera;
+    let drag = response.drag_delta();
+    let drag = Vec2::new(drag.x, drag.y);
+    let height = response.rect.height().max(1.0);
+    let shift = ui.input(|input| input.modifiers.shift);
+    let by = |button| response.dragged_by(button) && drag != Vec2::ZERO;
+    if by(PointerButton::Middle) || by(PointerButton::Primary) && shift {
+        camera.pan(drag / height);
+    } else if by(PointerButton::Primary) {
+        camera.orbit(-drag * TURN);
+    } else if by(PointerButton::Secondary) {
+        camera.look(-drag * TURN);
+    }
+    if !response.hovered() && !response.dragged() {
+        return;
+    }
+    let (scroll, elapsed) = ui.input(|input| (input.smooth_scroll_delta().y, input.stable_dt));
+    if scroll != 0.0 {
+        camera.zoom(scroll / 40.0);
+    }
+    if ui.ctx().egui_wants_keyboard_input() {
+        return;
+    }
+    let direction = ui.input(|input| {
+        if input.modifiers.command || input.modifiers.alt {
+            return Vec3::ZERO;
+        }
+        let axis = |minus, plus| f32::from(input.key_down(plus)) - f32::from(input.key_down(minus));
+        Vec3::new(
+            axis(Key::A, Key::D),
+            axis(Key::Q, Key::E),
+            axis(Key::W, Key::S),
+        )
+    });
+    if direction != Vec3::ZERO {
+        let faster = if shift { 4.0 } else { 1.0 };
+        // A frame that took long must not throw the camera far.
+        camera.fly(direction, elapsed.min(0.1) * faster);
+        ui.ctx().request_repaint();
+    }
+}
+
+/// The mistakes that keep the newest state off the screen, over the last good picture.
+fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
+    let workbench = &editor.workbench;
+    let count = workbench.problems().count();
+    if count == 0 {
+        return;
+    }
+    let palette = Palette::of(ui);
+    let frame = egui::Frame::new()
+        .fill(palette.error_fill)
+        .stroke(egui::Stroke::new(1.0, palette.error))
+        .corner_radius(CornerRadius::same(4))
+        .inner_margin(Margin::same(10));
+    let area = Rect::from_min_max(rect.min + vec2(12.0, 12.0), rect.max - vec2(12.0, 12.0));
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(area).id_salt("problems"));
+    child.set_clip_rect(rect);
+    frame.show(&mut child, |ui| {
+        ui.set_max_width(area.width().min(720.0));
+        for (index, problem) in workbench.problems().take(MOST_PROBLEMS).enumerate() {
+            if index > 0 {
+                ui.separator();
+            }
+            one_problem(ui, problem, palette);
+        }
+        if count > MOST_PROBLEMS {
+            ui.label(RichText::new(format!("{} more in the log", count - MOST_PROBLEMS)).weak());
+        }
+        if workbench.scenes.shown().is_some() && workbench.pipelines.shown().is_some() {
+            ui.add_space(4.0);
+            ui.label(RichText::new("The last good picture stays until this is mended.").weak());
+        }
+    });
+}
+
+fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) {
+    ui.label(
+        RichText::new(problem.place.to_string())
+            .monospace()
+            .color(palette.error),
+    );
+    ui.label(&problem.message);
+    if let Some(line) = &problem.source_line {
+        let mut text = line.replace('\t', "    ");
+        if problem.place.column > 0 {
+            let before = line.chars().take(problem.place.column as usize - 1);
+            let indent: usize = before.map(|c| if c == '\t' { 4 } else { 1 }).sum();
+            text.push('\n');
+            text.push_str(&" ".repeat(indent));
+            text.push('^');
+        }
+        ui.label(RichText::new(text).monospace());
+    }
+    if let Some(hint) = &problem.hint {
+        ui.label(RichText::new(hint).italics());
+    }
+}
+
+/// How far the next scene is, and that the first pipeline is built.
+fn loading(editor: &Editor, ui: &mut Ui, rect: Rect, has_picture: bool) {
+    let workbench = &editor.workbench;
+    if let Some(state) = workbench.scenes.loading() {
+        let text = match state.label.as_str() {
+            "" => format!("Loading {}", state.name),
+            label => format!("Loading {}: {label}", state.name),
+        };
+        let place = Rect::from_center_size(
+            rect.center_bottom() - vec2(0.0, 44.0),
+            vec2(rect.width().min(360.0), 20.0),
+        );
+        let bar = egui::ProgressBar::new(state.fraction).text(text);
+        ui.put(place, bar);
+    } else if !has_picture && workbench.pipelines.is_busy() {
+        note(ui, rect, Align2::CENTER_CENTER, "Building the pipeline");
+    }
+}
+
+/// A short line in a corner of the picture.
+fn note(ui: &Ui, rect: Rect, align: Align2, text: &str) {
+    let palette = Palette::of(ui);
+    let painter = ui.painter_at(rect);
+    let inner = rect.shrink(10.0);
+    let galley = painter.layout_no_wrap(
+        text.to_owned(),
+        FontId::proportional(12.0),
+        palette.note_text,
+    );
+    let place = align.anchor_size(align.pos_in_rect(&inner), galley.size());
+    painter.rect_filled(place.expand2(vec2(7.0, 4.0)), 3.0, palette.note_fill);
+    painter.galley(place.min, galley, palette.note_text);
+}
+
+/// What to try first.
+fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
+    let palette = Palette::of(ui);
+    let third = if editor.workbench.files().project().is_some() {
+        "Save a shader or script of your project, and the picture follows."
+    } else {
+        "To change shaders and scripts, make a project: lightbench new DIR"
+    };
+    let lines = [
+        "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",
+        "Keys 1 to 9, [ and ] swap the pipeline; scene, camera and time stay.",
+        third,
+    ];
+    egui::Area::new(Id::unique("hint"))
+        .constrain_to(rect)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(rect.left_bottom() + vec2(12.0, -12.0))
+        .show(ui.ctx(), |ui| {
+            egui::Frame::new()
+                .fill(palette.note_fill)
+                .corner_radius(CornerRadius::same(4))
+                .inner_margin(Margin::symmetric(12, 9))
+                .show(ui, |ui| {
+                    for line in lines {
+                        ui.label(RichText::new(line).color(palette.note_text));
+                    }
+                    ui.add_space(2.0);
+                    if ui.small_button("Got it").clicked() {
+                        editor.hint = false;
+                    }
+                });
+        });
+}

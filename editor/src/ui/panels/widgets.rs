@@ -1,0 +1,89 @@
+//! Small pieces that several panels use.
+
+use egui::{Color32, Sense, Stroke, Ui, pos2};
+
+use crate::ui::workbench::timing::{Series, WINDOW};
+
+/// What stands where a number is missing.
+pub const MISSING: &str = "-";
+
+/// A count with thin groups of three digits.
+pub fn count(value: u64) -> String {
+    let digits = value.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            grouped.push(' ');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// Bytes in a unit that fits, to three digits.
+pub fn bytes(value: u64) -> String {
+    let value = value as f64;
+    let (scaled, unit) = match value {
+        v if v >= 1e9 => (v / 1e9, "GB"),
+        v if v >= 1e6 => (v / 1e6, "MB"),
+        v if v >= 1e3 => (v / 1e3, "kB"),
+        v => (v, "B"),
+    };
+    let decimals = match scaled {
+        _ if unit == "B" => 0,
+        s if s < 9.995 => 2,
+        s if s < 99.95 => 1,
+        _ => 0,
+    };
+    format!("{scaled:.decimals$} {unit}")
+}
+
+/// Milliseconds, or the sign for a missing number.
+pub fn ms(value: Option<f64>) -> String {
+    value.map_or_else(|| MISSING.to_owned(), |ms| format!("{ms:.2}"))
+}
+
+/// The last values as a line, from 0 to `top`.
+pub fn sparkline(ui: &mut Ui, size: egui::Vec2, series: &Series, top: f64, color: Color32) {
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
+    let count = series.values().len();
+    if count < 2 || top <= 0.0 {
+        return;
+    }
+    let points = series.values().enumerate().map(|(i, value)| {
+        let x = rect.right() - (count - 1 - i) as f32 / (WINDOW - 1) as f32 * rect.width();
+        let share = (value / top).clamp(0.0, 1.0) as f32;
+        pos2(x, rect.bottom() - 1.0 - share * (rect.height() - 2.0))
+    });
+    painter.line(points.collect(), Stroke::new(1.0, color));
+}
+
+/// `light_volumes` as "Light volumes".
+pub fn words(name: &str) -> String {
+    let mut text = name.replace('_', " ");
+    if let Some(first) = text.get(..1) {
+        let upper = first.to_uppercase();
+        text.replace_range(..1, &upper);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_three_digits_and_names_become_words() {
+        assert_eq!(bytes(999), "999 B");
+        assert_eq!(bytes(1_500), "1.50 kB");
+        assert_eq!(bytes(3_686_400), "3.69 MB");
+        assert_eq!(bytes(99_960_000), "100 MB");
+        assert_eq!(count(1_234_567), "1 234 567");
+        assert_eq!(count(12), "12");
+        assert_eq!(words("light_volumes"), "Light volumes");
+        assert_eq!(words(""), "");
+        assert_eq!(ms(None), MISSING);
+    }
+}

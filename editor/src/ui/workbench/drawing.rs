@@ -1,0 +1,181 @@
+//! Frames of the viewport: when to draw one, and at which size.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use lightbench::render::queries::Measured;
+use lightbench::render::{FrameStatistics, Place, Problem, RenderError, View};
+
+use super::Workbench;
+use super::resolution::Resolution;
+
+/// How long nothing must move before the picture is drawn at full size.
+const REST: Duration = Duration::from_millis(250);
+
+/// Frames whose time includes the driver's compiler, and says nothing about the next.
+const WARM_UP: u32 = 2;
+
+/// What the picture on screen was made from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Drawn {
+    view: View,
+    size: (u32, u32),
+    scale: f32,
+}
+
+/// The state of the viewport's picture.
+#[derive(Debug, Default)]
+pub(super) struct Canvas {
+    drawn: Option<Drawn>,
+    /// Something other than view and size changed since.
+    stale: bool,
+    moved_at: Option<Instant>,
+    /// Submitted frames and their scales.
+    scales: VecDeque<(u32, f32)>,
+    warm_up: u32,
+    pub(super) problem: Option<Problem>,
+    pub(super) statistics: FrameStatistics,
+}
+
+impl Canvas {
+    /// The picture no longer shows the present state.
+    pub(super) fn invalidate(&mut self) {
+        self.stale = true;
+    }
+
+    /// As [`Canvas::invalidate`], and the next frames compile shaders.
+    pub(super) fn new_pipeline(&mut self) {
+        self.stale = true;
+        self.warm_up = WARM_UP;
+    }
+
+    /// The scale and time of a measured frame, where it may guide the resolution.
+    pub(super) fn measured(&mut self, measured: &Measured) -> Option<(f32, f64)> {
+        let at = self
+            .scales
+            .iter()
+            .position(|(frame, _)| *frame == measured.frame)?;
+        let scale = self.scales[at].1;
+        self.scales.drain(..=at);
+        if self.warm_up > 0 {
+            self.warm_up -= 1;
+            return None;
+        }
+        Some((scale, measured.total_ms?))
+    }
+}
+
+/// The picture for the viewport.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The pipeline's output, eight bits a channel, sRGB-coded.
+    pub texture: wgpu::Texture,
+    /// The factor between the viewport's pixels and the picture's.
+    pub scale: f32,
+}
+
+impl Workbench {
+    /// The picture for a viewport of `size` pixels, drawn anew where something changed. `None`
+    /// until the first scene and pipeline are ready.
+    pub fn draw(&mut self, size: (u32, u32), now: Instant) -> Option<Picture> {
+        let size = (size.0.max(1), size.1.max(1));
+        let view = self.camera.view();
+        let before = self.canvas.drawn;
+        if self.clock.playing || before.is_some_and(|drawn| drawn.view != view) {
+            self.canvas.moved_at = Some(now);
+        }
+        let moving = self.canvas.moved_at.is_some_and(|at| now - at < REST);
+        let scale = self.resolution.scale(moving);
+        let wanted = Drawn { view, size, scale };
+        if self.canvas.stale || before != Some(wanted) {
+            self.redraw(wanted);
+        }
+        self.picture()
+    }
+
+    /// The picture as it was last drawn.
+    pub fn picture(&mut self) -> Option<Picture> {
+        let scale = self.canvas.drawn?.scale;
+        let pipeline = self.pipelines.shown_pipeline()?;
+        let output = pipeline.desc.output.as_ref()?.name.as_str();
+        let target = pipeline.targets()?.get(output)?;
+        Some(Picture {
+            texture: target.texture.clone(),
+            scale,
+        })
+    }
+
+    /// When [`Workbench::tick`] and [`Workbench::draw`] have something to do next, as far as is
+    /// known; `None` while nothing goes on.
+    pub fn next_due(&self, now: Instant) -> Option<Duration> {
+        const PROGRESS: Duration = Duration::from_millis(80);
+        const RESULTS: Duration = Duration::from_millis(20);
+        let ready = self.scenes.shown().is_some() && self.pipelines.shown().is_some();
+        let soon = [
+            (ready && self.clock.playing).then_some(Duration::ZERO),
+            (ready && self.canvas.stale && self.canvas.problem.is_none()).then_some(Duration::ZERO),
+            self.timings.is_waiting().then_some(RESULTS),
+            (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
+                .then_some(PROGRESS),
+            // Refine the picture once nothing moves any more.
+            self.canvas
+                .drawn
+                .filter(|drawn| drawn.scale < 1.0)
+                .and_then(|_| {
+                    let at = self.canvas.moved_at?;
+                    Some((at + REST).saturating_duration_since(now))
+                }),
+        ];
+        soon.into_iter().flatten().min()
+    }
+
+    /// Size in pixels of the picture on screen.
+    pub fn drawn_size(&self) -> Option<(u32, u32)> {
+        let drawn = self.canvas.drawn?;
+        Some(Resolution::apply(drawn.size, drawn.scale))
+    }
+
+    fn redraw(&mut self, wanted: Drawn) {
+        let size = Resolution::apply(wanted.size, wanted.scale);
+        let time = self.clock.time();
+        let (Some(scene), Some(pipeline)) =
+            (self.scenes.scene_mut(), self.pipelines.shown_pipeline())
+        else {
+            return;
+        };
+        let resized = self
+            .canvas
+            .drawn
+            .is_none_or(|drawn| Resolution::apply(drawn.size, drawn.scale) != size);
+        if resized {
+            self.timings.reset();
+        }
+        let frame = self.renderer.next_frame();
+        let (world, assets) = (&mut scene.world, &scene.assets);
+        let result = self
+            .renderer
+            .render(world, assets, pipeline, &wanted.view, size, time);
+        self.canvas.stale = false;
+        match result {
+            Ok(statistics) => {
+                self.timings.submitted(frame, statistics);
+                self.canvas.statistics.clone_from(statistics);
+                self.canvas.scales.push_back((frame, wanted.scale));
+                if self.canvas.scales.len() > 16 {
+                    self.canvas.scales.pop_front();
+                }
+                self.canvas.drawn = Some(wanted);
+                self.canvas.problem = None;
+            }
+            Err(RenderError::Gpu(error)) => self.device_failed(error),
+            Err(error) => {
+                let problem = Problem::new(Place::file("viewport"), error.to_string());
+                if self.canvas.problem.as_ref() != Some(&problem) {
+                    self.log.problem(&problem);
+                }
+                self.canvas.problem = Some(problem);
+                self.canvas.drawn = Some(wanted);
+            }
+        }
+    }
+}

@@ -1,0 +1,392 @@
+//! What the editor does, without a widget in it: a scene, pipelines, a camera, time, and files
+//! that change under them.
+//!
+//! Everything slow runs on threads: scenes load, pipelines compile and lists are read while the
+//! last good picture goes on. [`Workbench::tick`] takes in what they finished and
+//! [`Workbench::draw`] draws if something changed.
+
+pub mod camera;
+pub mod clock;
+pub mod compiling;
+mod drawing;
+pub mod fields;
+pub mod library;
+pub mod log;
+pub mod pipelines;
+pub mod resolution;
+pub mod scenes;
+pub mod timing;
+mod watching;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lightbench::assets::files::Files;
+use lightbench::render::problem::Problems;
+use lightbench::render::{
+    FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
+};
+use lightbench::world::glam::Vec3;
+use lightbench::world::{WorldBounds, systems};
+
+use self::camera::CameraRig;
+use self::clock::Clock;
+use self::drawing::Canvas;
+use self::library::Library;
+use self::log::{Level, Log};
+use self::pipelines::{News, Pipelines};
+use self::resolution::Resolution;
+use self::scenes::{Loaded, Scenes};
+use self::timing::Timings;
+use self::watching::Watch;
+use super::EditorOptions;
+
+/// Called from any thread when there is something for [`Workbench::tick`].
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// The model behind the editor.
+pub struct Workbench {
+    files: Files,
+    wake: Wake,
+    renderer: Renderer,
+    watch: Watch,
+    canvas: Canvas,
+    last_tick: Option<Instant>,
+    lost: Option<String>,
+    gpu_options: GpuOptions,
+    /// Visited pipelines.
+    pub pipelines: Pipelines,
+    /// The scene.
+    pub scenes: Scenes,
+    /// What can be chosen.
+    pub library: Library,
+    /// Where the picture is seen from.
+    pub camera: CameraRig,
+    /// The scene's time.
+    pub clock: Clock,
+    /// What happened.
+    pub log: Log,
+    /// What frames cost.
+    pub timings: Timings,
+    /// How many pixels are drawn.
+    pub resolution: Resolution,
+}
+
+impl Workbench {
+    /// Opens the first scene and pipeline on a device.
+    pub fn new(gpu: Gpu, options: EditorOptions, wake: Wake) -> Self {
+        let EditorOptions { files, .. } = options;
+        let mut log = Log::default();
+        let summary = &gpu.summary;
+        log.info(format!("{} ({})", summary.name, summary.driver_info));
+        if summary.software {
+            log.warn("The processor draws: times are not those of a graphics card.");
+        }
+        for missing in &summary.missing {
+            log.warn(format!("The adapter lacks {missing}."));
+        }
+        let resolution = Resolution::new(summary.software);
+        let renderer = Renderer::new(gpu);
+        let pipelines = Pipelines::new(renderer.compiler(), files.clone(), wake.clone());
+        let watch = Watch::start(&files, &wake, &mut log);
+        let mut this = Self {
+            scenes: Scenes::new(files.clone(), wake.clone()),
+            pipelines,
+            watch,
+            renderer,
+            resolution,
+            log,
+            wake,
+            files,
+            canvas: Canvas::default(),
+            last_tick: None,
+            lost: None,
+            gpu_options: options.gpu,
+            library: Library::default(),
+            camera: CameraRig::default(),
+            clock: Clock::default(),
+            timings: Timings::default(),
+        };
+        this.library.refresh(&this.files, &this.wake);
+        this.scenes
+            .select(&options.scene, Some(options.scene_settings));
+        this.scenes.poll();
+        this.pipelines
+            .select_with(&options.pipeline, options.pipeline_settings);
+        this
+    }
+
+    /// Goes on with another device after one was lost. Scene, camera, time and settings stay.
+    pub fn move_to(&mut self, gpu: Gpu) {
+        self.log
+            .warn(format!("Drawing goes on with {}.", gpu.summary.name));
+        self.resolution = Resolution::new(gpu.summary.software);
+        let request = self.renderer.inspector().request().cloned();
+        self.renderer = Renderer::new(gpu);
+        self.pipelines.move_to(
+            self.renderer.compiler(),
+            self.files.clone(),
+            self.wake.clone(),
+        );
+        self.canvas = Canvas::default();
+        self.timings.reset();
+        self.lost = None;
+        self.inspect(request);
+    }
+
+    /// The device, for those who draw beside the workbench.
+    pub fn gpu(&self) -> &Gpu {
+        self.renderer.gpu()
+    }
+
+    /// How the device was chosen.
+    pub fn gpu_options(&self) -> &GpuOptions {
+        &self.gpu_options
+    }
+
+    /// The file store.
+    pub fn files(&self) -> &Files {
+        &self.files
+    }
+
+    /// Why the device is lost, if it is: then [`Workbench::move_to`] mends it.
+    pub fn lost(&self) -> Option<&str> {
+        self.lost.as_deref()
+    }
+
+    /// Swaps the pipeline; scene, camera and time stay.
+    pub fn select_pipeline(&mut self, name: &str) {
+        let before = self.pipelines.shown().map(str::to_owned);
+        self.pipelines.select(name);
+        self.pipeline_shown(before.as_deref());
+    }
+
+    /// Loads another scene; until it is ready the present one stays.
+    pub fn select_scene(&mut self, name: &str) {
+        self.scenes.select(name, None);
+        self.scenes.poll();
+    }
+
+    /// All mistakes that keep the newest state off the screen.
+    pub fn problems(&self) -> impl Iterator<Item = &Problem> {
+        let sources = [self.scenes.problems(), self.pipelines.problems()];
+        let drawing = self.canvas.problem.as_slice().iter();
+        sources
+            .into_iter()
+            .flatten()
+            .flat_map(|problems| problems.0.iter())
+            .chain(drawing)
+    }
+
+    /// Chooses a target to look at, or none.
+    pub fn inspect(&mut self, request: Option<inspect::Inspection>) {
+        let result = self.renderer.inspector().look(&self.files, request);
+        if let Err(problem) = result {
+            self.log.problem(&problem);
+        }
+        self.canvas.invalidate();
+    }
+
+    /// The cost of the last frame.
+    pub fn statistics(&self) -> &FrameStatistics {
+        &self.canvas.statistics
+    }
+
+    /// What is being looked at.
+    pub fn inspection(&mut self) -> Option<inspect::Inspection> {
+        self.renderer.inspector().request().cloned()
+    }
+
+    /// The picture of what is being looked at.
+    pub fn inspected(&mut self) -> Option<wgpu::Texture> {
+        self.renderer.inspector().picture().cloned()
+    }
+
+    /// Shows the whole scene from the present direction.
+    pub fn frame_scene(&mut self) {
+        if let Some((min, max)) = self.scene_bounds() {
+            self.camera.frame(min, max);
+        }
+    }
+
+    /// A box around everything that is drawn.
+    pub fn scene_bounds(&self) -> Option<(Vec3, Vec3)> {
+        let bounds = self.scenes.scene()?.world.columns::<WorldBounds>();
+        let b = bounds.slices();
+        let boxes = (0..b.x.len()).map(|row| {
+            let center = Vec3::new(b.x[row], b.y[row], b.z[row]);
+            let half = Vec3::new(b.half_x[row], b.half_y[row], b.half_z[row]);
+            (center - half, center + half)
+        });
+        boxes
+            .filter(|(min, max)| min.is_finite() && max.is_finite())
+            .reduce(|(a, b), (min, max)| (a.min(min), b.max(max)))
+    }
+
+    /// Reads and builds everything again.
+    pub fn reload(&mut self) {
+        let all = self.files.list("shaders", "wgsl").unwrap_or_default();
+        let mut paths: Vec<String> = all.into_iter().map(|entry| entry.path).collect();
+        paths.push(format!("{}/", lightbench::script::PIPELINES));
+        self.pipelines.changed(&paths);
+        self.scenes.reload();
+        self.library.refresh(&self.files, &self.wake);
+    }
+
+    /// Takes in what threads, files and the device have finished, and lets time pass.
+    pub fn tick(&mut self, now: Instant) {
+        let elapsed = self.last_tick.map_or(Duration::ZERO, |last| now - last);
+        self.last_tick = Some(now);
+
+        if let Some(changes) = self.watch.poll() {
+            if changes.everything {
+                self.reload();
+            } else {
+                let paths: Vec<String> = changes.paths.into_iter().collect();
+                self.files_changed(&paths);
+            }
+        }
+        self.take_pipelines();
+        self.take_scene();
+        for error in self.library.poll(&self.files, &self.wake) {
+            self.log.error(error);
+        }
+        if let Some(step) = self.clock.advance(elapsed) {
+            self.update_scene(step);
+        }
+        self.follow_camera();
+        self.take_measurements();
+    }
+
+    /// Tells that project files changed: only what depends on them is built again.
+    pub fn files_changed(&mut self, paths: &[String]) {
+        self.pipelines.changed(paths);
+        self.scenes.changed(paths);
+        if paths.iter().any(|path| path.starts_with("scripts/")) {
+            self.library.refresh(&self.files, &self.wake);
+        }
+        if paths.iter().any(|path| path == inspect::INSPECT_SHADER) {
+            let request = self.inspection();
+            self.inspect(request);
+        }
+    }
+
+    fn pipeline_shown(&mut self, before: Option<&str>) {
+        if self.pipelines.shown() != before {
+            self.timings.reset();
+            self.canvas.invalidate();
+        }
+    }
+
+    fn take_pipelines(&mut self) {
+        let before = self.pipelines.shown().map(str::to_owned);
+        for news in self.pipelines.poll() {
+            match news {
+                News::Compiled(name, took) => {
+                    let title = self.library.pipeline_title(&name).to_owned();
+                    let ms = took.as_secs_f64() * 1e3;
+                    self.log.info(format!("{title}: built in {ms:.0} ms."));
+                    if Some(name.as_str()) == self.pipelines.shown() {
+                        self.timings.reset();
+                        self.canvas.new_pipeline();
+                    }
+                }
+                News::Values(_) => self.canvas.invalidate(),
+                News::Failed(_, problems) => self.log_problems(&problems),
+                News::LeftOut(name, settings) => self.log.warn(format!(
+                    "{name}: no longer set, because the file does not take it: {}.",
+                    settings.join(", ")
+                )),
+            }
+        }
+        self.pipeline_shown(before.as_deref());
+    }
+
+    fn take_scene(&mut self) {
+        match self.scenes.poll() {
+            None => {}
+            Some(Loaded::Failed(problems)) => self.log_problems(&problems),
+            Some(Loaded::Scene { again }) => self.new_scene(again),
+        }
+    }
+
+    fn new_scene(&mut self, again: bool) {
+        self.renderer.reset_scene();
+        self.timings.reset();
+        let Some(scene) = self.scenes.scene_mut() else {
+            return;
+        };
+        systems::update_world_matrices(&mut scene.world);
+        let animated = scene.has_update();
+        if again {
+            self.clock.refresh();
+        } else {
+            self.clock.rewind();
+            self.clock.playing = animated;
+            self.camera.reset();
+        }
+        self.canvas.invalidate();
+    }
+
+    /// Lets the scene's script move things; a mistake stops time and shows.
+    fn update_scene(&mut self, step: f64) {
+        let Some(scene) = self.scenes.scene_mut() else {
+            self.clock.refresh();
+            return;
+        };
+        let result = scene.update(self.clock.time(), step);
+        for line in scene.take_log() {
+            self.log.add(Level::Script, Some(line.place), line.text);
+        }
+        if let Err(problem) = result {
+            self.log.problem(&problem);
+            self.scenes.set_problems(Some(Problems(vec![problem])));
+            self.clock.playing = false;
+        }
+        self.canvas.invalidate();
+    }
+
+    fn follow_camera(&mut self) {
+        let Some(scene) = self.scenes.scene_mut() else {
+            return;
+        };
+        systems::update_world_matrices(&mut scene.world);
+        let home = View::from_world(&scene.world).unwrap_or_default();
+        self.camera.follow(home);
+    }
+
+    fn take_measurements(&mut self) {
+        match self.renderer.poll() {
+            Ok(results) => {
+                for measured in results {
+                    self.timings.measured(&measured);
+                    if let Some((scale, ms)) = self.canvas.measured(&measured) {
+                        self.resolution.measured(scale, ms);
+                    }
+                }
+            }
+            Err(error) => self.device_failed(error),
+        }
+        for warning in self.renderer.take_warnings() {
+            self.log.warn(warning);
+        }
+    }
+
+    fn device_failed(&mut self, error: GpuError) {
+        if let GpuError::Lost(reason) = &error {
+            if self.lost.is_none() {
+                self.log
+                    .error(format!("The graphics device was lost: {reason}"));
+            }
+            self.lost = Some(reason.clone());
+        } else {
+            self.log.error(error.to_string());
+        }
+    }
+
+    fn log_problems(&mut self, problems: &Problems) {
+        for problem in &problems.0 {
+            self.log.problem(problem);
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! The pipelines that were visited, and which of them is on screen.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use lightbench::assets::files::Files;
+use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems};
+use lightbench::script::{SettingValue, Settings};
+
+use super::Wake;
+use super::compiling::{Answer, Built, CompileWorker, Request, uses_shader};
+
+/// One pipeline that was visited.
+#[derive(Debug, Default)]
+pub struct Slot {
+    /// Values that somebody gave to its parameters.
+    pub settings: Settings,
+    /// The last good one.
+    pub pipeline: Option<Pipeline>,
+    /// Why the newest state of its files or settings does not work.
+    pub problems: Option<Problems>,
+    /// The newest request that was not answered yet.
+    pending: Option<u64>,
+    /// Files changed since the last request.
+    stale: bool,
+}
+
+impl Slot {
+    /// The description with its parameters.
+    pub fn desc(&self) -> Option<&PipelineDesc> {
+        self.pipeline.as_ref().map(|pipeline| &pipeline.desc)
+    }
+}
+
+/// What became of a request.
+#[derive(Debug)]
+pub enum News {
+    /// A pipeline was compiled in that time.
+    Compiled(String, Duration),
+    /// Parameters got new values without compiling.
+    Values(String),
+    /// It has mistakes.
+    Failed(String, Problems),
+    /// Settings were left out, because the file has no such parameters any more.
+    LeftOut(String, Vec<String>),
+}
+
+/// All visited pipelines.
+pub struct Pipelines {
+    slots: BTreeMap<String, Slot>,
+    selected: String,
+    shown: Option<String>,
+    worker: CompileWorker,
+    ticket: u64,
+}
+
+impl Pipelines {
+    /// No pipeline is built yet.
+    pub fn new(compiler: Compiler, files: Files, wake: Wake) -> Self {
+        Self {
+            slots: BTreeMap::new(),
+            selected: String::new(),
+            shown: None,
+            worker: CompileWorker::start(compiler, files, wake),
+            ticket: 0,
+        }
+    }
+
+    /// The same visits and settings on another device: everything is built anew.
+    pub fn move_to(&mut self, compiler: Compiler, files: Files, wake: Wake) {
+        self.worker = CompileWorker::start(compiler, files, wake);
+        self.shown = None;
+        for slot in self.slots.values_mut() {
+            slot.pipeline = None;
+            slot.pending = None;
+            slot.stale = true;
+        }
+        if !self.selected.is_empty() {
+            self.request(&self.selected.clone(), true);
+        }
+    }
+
+    /// Which pipeline was asked for.
+    pub fn selected(&self) -> &str {
+        &self.selected
+    }
+
+    /// Which pipeline draws; until the selected one is ready, the one before it.
+    pub fn shown(&self) -> Option<&str> {
+        self.shown.as_deref()
+    }
+
+    /// The pipeline that draws.
+    pub fn shown_pipeline(&mut self) -> Option<&mut Pipeline> {
+        let slot = self.slots.get_mut(self.shown.as_deref()?)?;
+        slot.pipeline.as_mut()
+    }
+
+    /// A visited pipeline.
+    pub fn slot(&self, name: &str) -> Option<&Slot> {
+        self.slots.get(name)
+    }
+
+    /// The mistakes of the selected pipeline, if it has any.
+    pub fn problems(&self) -> Option<&Problems> {
+        self.slots.get(&self.selected)?.problems.as_ref()
+    }
+
+    /// Whether the selected pipeline is being built.
+    pub fn is_busy(&self) -> bool {
+        self.slots
+            .get(&self.selected)
+            .is_some_and(|slot| slot.pending.is_some())
+    }
+
+    /// Swaps to another pipeline: at once if it was visited, else as soon as it is built.
+    pub fn select(&mut self, name: &str) {
+        self.selected = name.to_owned();
+        let slot = self.slots.entry(name.to_owned()).or_default();
+        if slot.pipeline.is_some() {
+            self.shown = Some(name.to_owned());
+        }
+        if (slot.pipeline.is_none() || slot.stale) && slot.pending.is_none() {
+            self.request(name, true);
+        }
+    }
+
+    /// As [`Pipelines::select`], with values for its parameters.
+    pub fn select_with(&mut self, name: &str, settings: Settings) {
+        self.selected = name.to_owned();
+        self.set_all(name, settings);
+    }
+
+    /// Gives a value to a parameter of the selected pipeline.
+    pub fn set(&mut self, parameter: &str, value: SettingValue) {
+        let name = self.selected.clone();
+        let slot = self.slots.entry(name.clone()).or_default();
+        slot.settings.set(parameter, value);
+        self.request(&name, true);
+    }
+
+    /// Takes a parameter of the selected pipeline back to its default.
+    pub fn unset(&mut self, parameter: &str) {
+        let name = self.selected.clone();
+        let slot = self.slots.entry(name.clone()).or_default();
+        slot.settings = without(&slot.settings, &[parameter.to_owned()]);
+        self.request(&name, true);
+    }
+
+    /// Replaces all values of a pipeline's parameters.
+    pub fn set_all(&mut self, name: &str, settings: Settings) {
+        let slot = self.slots.entry(name.to_owned()).or_default();
+        slot.settings = settings;
+        self.request(name, name == self.selected);
+    }
+
+    /// Builds again what depends on changed files, the selected pipeline first. Returns whether
+    /// anything does.
+    pub fn changed(&mut self, paths: &[String]) -> bool {
+        self.worker.changed(paths.to_vec());
+        let mut affected = Vec::new();
+        for (name, slot) in &mut self.slots {
+            let script = |path: &String| path.starts_with("scripts/pipelines/");
+            let hit = match (&slot.pipeline, &slot.problems) {
+                (Some(pipeline), None) => paths
+                    .iter()
+                    .any(|path| script(path) || uses_shader(&pipeline.desc, path)),
+                // What is broken may have named any of these.
+                _ => paths
+                    .iter()
+                    .any(|path| script(path) || path.starts_with("shaders/")),
+            };
+            if hit {
+                slot.stale = true;
+                affected.push(name.clone());
+            }
+        }
+        affected.sort_by_key(|name| *name != self.selected);
+        for name in &affected {
+            self.request(name, *name == self.selected);
+        }
+        !affected.is_empty()
+    }
+
+    /// Takes in what the worker finished.
+    pub fn poll(&mut self) -> Vec<News> {
+        let mut news = Vec::new();
+        while let Some(answer) = self.worker.poll() {
+            self.take(answer, &mut news);
+        }
+        news
+    }
+
+    fn take(&mut self, answer: Answer, news: &mut Vec<News>) {
+        let slot = self.slots.entry(answer.name.clone()).or_default();
+        if slot.pending == Some(answer.ticket) {
+            slot.pending = None;
+        }
+        if !answer.left_out.is_empty() {
+            slot.settings = without(&slot.settings, &answer.left_out);
+            news.push(News::LeftOut(answer.name.clone(), answer.left_out));
+        }
+        match answer.result {
+            Ok(Built::Pipeline(pipeline)) => {
+                slot.pipeline = Some(*pipeline);
+                slot.problems = None;
+                news.push(News::Compiled(answer.name.clone(), answer.took));
+            }
+            Ok(Built::Values(desc)) => {
+                if let Some(pipeline) = &mut slot.pipeline {
+                    pipeline.adopt_values(&desc);
+                }
+                slot.problems = None;
+                news.push(News::Values(answer.name.clone()));
+            }
+            Err(problems) => {
+                // The same mistake again, as after each keystroke of a slider, is no news.
+                if slot.problems.as_ref() != Some(&problems) {
+                    news.push(News::Failed(answer.name.clone(), problems.clone()));
+                }
+                slot.problems = Some(problems);
+            }
+        }
+        if slot.pipeline.is_some() && answer.name == self.selected {
+            self.shown = Some(answer.name);
+        }
+    }
+
+    fn request(&mut self, name: &str, urgent: bool) {
+        self.ticket += 1;
+        let slot = self.slots.entry(name.to_owned()).or_default();
+        slot.pending = Some(self.ticket);
+        slot.stale = false;
+        self.worker.build(Request {
+            name: name.to_owned(),
+            settings: slot.settings.clone(),
+            ticket: self.ticket,
+            urgent,
+        });
+    }
+}
+
+/// The settings but for some names.
+fn without(settings: &Settings, names: &[String]) -> Settings {
+    let mut kept = Settings::new();
+    for (name, value) in settings.iter() {
+        if !names.iter().any(|left_out| left_out == name) {
+            kept.set(name, value.clone());
+        }
+    }
+    kept
+}
