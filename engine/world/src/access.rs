@@ -31,8 +31,8 @@ macro_rules! sets {
         impl<$($component: Stored),*> ReadSet for ($($component,)*) {
             type Columns<'a> = ($(&'a Columns<$component>,)*);
             const BITS: u32 = 0 $(| 1 << $component::KIND as u32)*;
-            fn columns(_world: &World) -> Self::Columns<'_> {
-                ($(_world.columns::<$component>(),)*)
+            fn columns(world: &World) -> Self::Columns<'_> {
+                ($(world.columns::<$component>(),)*)
             }
         }
 
@@ -47,18 +47,30 @@ macro_rules! sets {
                 )*
                 bits
             };
-            fn take(_world: &mut World) -> Self::Columns {
-                ($(_world.take_columns::<$component>(),)*)
+            fn take(world: &mut World) -> Self::Columns {
+                ($(world.take_columns::<$component>(),)*)
             }
-            fn put(columns: Self::Columns, _world: &mut World) {
+            fn put(columns: Self::Columns, world: &mut World) {
                 let ($($columns,)*) = columns;
-                $(_world.put_columns($columns);)*
+                $(world.put_columns($columns);)*
             }
         }
     };
 }
 
-sets!();
+impl ReadSet for () {
+    type Columns<'a> = ();
+    const BITS: u32 = 0;
+    fn columns(_: &World) {}
+}
+
+impl WriteSet for () {
+    type Columns = ();
+    const BITS: u32 = 0;
+    fn take(_: &mut World) {}
+    fn put((): (), _: &mut World) {}
+}
+
 sets!(A a);
 sets!(A a, B b);
 sets!(A a, B b, C c);

@@ -12,7 +12,7 @@ use crate::world::World;
 
 /// Bundles that are split into their components at a time: they fit into the
 /// fastest cache, from where each array takes its own.
-const CHUNK: usize = 64;
+const CHUNK: usize = 128;
 
 /// Several components of one entity: a tuple of up to eight different ones.
 pub trait Bundle: Sized {

@@ -166,7 +166,7 @@ components! {
     #[derive(Copy)]
     camera: Camera, Shown {
         /// Full vertical angle of view.
-        fov_y: f32 = FRAC_PI_3, "rad", (0.001, 3.14);
+        fov_y: f32 = FRAC_PI_3, "rad", (0.001, PI - 0.001);
         /// Distance of the near plane.
         near: f32 = 0.1, "m", (1e-6, f32::INFINITY);
         /// Distance of the far plane; infinity is allowed.

@@ -95,12 +95,19 @@ impl RowMap {
 
     /// Adds rows at the end. The entities must not have any.
     pub fn extend(&mut self, entities: &[Entity]) {
-        for (entity, row) in entities.iter().zip(self.entities.len() as u32..) {
-            let slot = entity.index() as usize;
-            if slot == self.rows.len() {
-                self.rows.push(row);
-            } else {
-                if slot > self.rows.len() {
+        let first = self.entities.len() as u32;
+        let new_slots = self.rows.len() as u32..;
+        if entities
+            .iter()
+            .map(|entity| entity.index())
+            .eq(new_slots.take(entities.len()))
+        {
+            // All slots are new, one after the other, and so are the rows.
+            self.rows.extend(first..first + entities.len() as u32);
+        } else {
+            for (entity, row) in entities.iter().zip(first..) {
+                let slot = entity.index() as usize;
+                if slot >= self.rows.len() {
                     self.rows.resize(slot + 1, NO_ROW);
                 }
                 self.rows[slot] = row;

@@ -1,6 +1,8 @@
 //! Volumes that spheres are tested against, beside the view frustum: what a light
 //! reaches.
 
+use std::f32::consts::FRAC_PI_2;
+
 use glam::Vec3;
 
 /// A volume that can say whether a sphere may touch it.
@@ -40,7 +42,7 @@ pub struct Cone {
     sine: f32,
     cosine: f32,
     /// No cone: half the angle is a right angle or more, or there is no
-    /// direction. The whole ball counts then.
+    /// direction or angle. The whole ball counts then.
     wide: bool,
 }
 
@@ -51,6 +53,7 @@ impl Cone {
         // Written so that NaN stays NaN.
         let half = 0.5 * if angle < 0.0 { 0.0 } else { angle };
         let unit = direction.try_normalize();
+        let too_wide = half.is_nan() || half >= FRAC_PI_2;
         Self {
             ball: Ball {
                 center: apex,
@@ -59,8 +62,7 @@ impl Cone {
             direction: unit.unwrap_or(Vec3::ZERO),
             sine: half.sin(),
             cosine: half.cos(),
-            // A NaN angle leaves the ball, too.
-            wide: unit.is_none() || !(half < std::f32::consts::FRAC_PI_2),
+            wide: unit.is_none() || too_wide,
         }
     }
 }

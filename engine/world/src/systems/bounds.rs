@@ -199,8 +199,10 @@ mod tests {
         world.set(entity, moved).unwrap();
         let (written, bounds) = run(&mut world, &[CUBE, small]);
         assert_eq!((written, bounds.y), (1, 1.0));
-        let mut renderer = MeshRenderer::default();
-        renderer.mesh = MeshId(1);
+        let mut renderer = MeshRenderer {
+            mesh: MeshId(1),
+            ..MeshRenderer::default()
+        };
         world.set(entity, renderer).unwrap();
         assert_eq!(run(&mut world, &[CUBE, small]).1.radius, 0.5);
         assert_eq!(run(&mut world, &[CUBE, CUBE]).0, 2);
