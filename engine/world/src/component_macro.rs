@@ -62,7 +62,7 @@ macro_rules! component {
             })*
         }
 
-        #[doc = concat!("The arrays behind [`", stringify!($name), "`](super::", stringify!($name), ").")]
+        #[doc = concat!("The arrays behind [`", stringify!($name), "`](crate::components::", stringify!($name), ").")]
         pub mod $module {
             use super::*;
 
