@@ -176,7 +176,7 @@ fn kinds(api: &mut Api) {
     );
     method(
         api,
-        "gathers_lights(on)",
+        "gather_lights(on)",
         "Whether the engine gathers, for each object, the lights that reach it. Else each object \
          gets all lights.",
         |open, arguments| {
@@ -186,7 +186,7 @@ fn kinds(api: &mut Api) {
                     *gather_lights = on;
                     Ok(())
                 }
-                other => Err(only_for("gathers_lights", "geometry", other)),
+                other => Err(only_for("gather_lights", "geometry", other)),
             }
         },
     );
