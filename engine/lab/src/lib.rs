@@ -13,7 +13,8 @@
 //!
 //! - [`reference`] has the shaders' formulas on the CPU.
 //!
-//! Nothing of this needs a GPU.
+//! - [`capture`] takes a picture of a scene, [`measure`] times pipelines on it. They need a GPU; the
+//!   rest doesn't.
 //!
 //! ```
 //! use lightbench_lab::{LdrImage, diff};
@@ -28,11 +29,13 @@
 
 #![warn(missing_docs)]
 
+pub mod capture;
 pub mod colormap;
 pub mod diff;
 mod error;
 pub mod files;
 pub mod heatmap;
+pub mod measure;
 pub mod metrics;
 mod picture;
 pub mod reference;

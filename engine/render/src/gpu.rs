@@ -121,32 +121,39 @@ const WANTED: [(Features, &str); 7] = [
     ),
 ];
 
-fn instance() -> wgpu::Instance {
-    let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-    wgpu::Instance::new(descriptor)
+fn instance(backends: Backends) -> wgpu::Instance {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = backends;
+    wgpu::Instance::new(descriptor.with_env())
 }
 
-/// The adapters in the order of preference: hardware before software, Vulkan, Metal and DirectX
-/// before OpenGL.
-fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
-    let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::all()));
-    adapters.sort_by_key(|adapter| {
-        let info = adapter.get_info();
-        let kind = match info.device_type {
-            DeviceType::DiscreteGpu => 0,
-            DeviceType::IntegratedGpu => 1,
-            DeviceType::VirtualGpu => 2,
-            DeviceType::Other => 3,
-            DeviceType::Cpu => 4,
-        };
-        (info.backend == wgpu::Backend::Gl, kind)
+/// The adapters in the order of preference: hardware before software.
+///
+/// OpenGL is looked at only where there is nothing better, or where the environment variable
+/// `WGPU_BACKEND` asks for it: starting it takes time, and without a desktop it complains.
+fn enumerate() -> Vec<wgpu::Adapter> {
+    let mut adapters = enumerate_with(Backends::PRIMARY);
+    if adapters.is_empty() {
+        adapters = enumerate_with(Backends::GL);
+    }
+    adapters
+}
+
+fn enumerate_with(backends: Backends) -> Vec<wgpu::Adapter> {
+    let mut adapters = pollster::block_on(instance(backends).enumerate_adapters(Backends::all()));
+    adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::IntegratedGpu => 1,
+        DeviceType::VirtualGpu => 2,
+        DeviceType::Other => 3,
+        DeviceType::Cpu => 4,
     });
     adapters
 }
 
 /// All adapters of this machine, best first. Empty where no driver is installed.
 pub fn adapters() -> Vec<AdapterSummary> {
-    enumerate(&instance()).iter().map(summarize).collect()
+    enumerate().iter().map(summarize).collect()
 }
 
 fn summarize(adapter: &wgpu::Adapter) -> AdapterSummary {
@@ -180,7 +187,7 @@ impl Gpu {
     /// # Errors
     /// [`GpuError`] with the way to mend it.
     pub fn open(options: &GpuOptions) -> Result<Self, GpuError> {
-        let adapter = Self::choose(enumerate(&instance()), options.adapter.as_deref())?;
+        let adapter = Self::choose(enumerate(), options.adapter.as_deref())?;
         Self::from_adapter(adapter, options)
     }
 

@@ -1,0 +1,114 @@
+//! The command line: one module a command, over the same calls as the editor.
+
+mod arguments;
+mod check_pipeline;
+mod compare;
+mod diff;
+mod doctor;
+mod edit;
+mod faults;
+mod list;
+mod load;
+mod new;
+mod progress;
+mod project;
+mod render;
+mod report;
+mod settings;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// A workbench for real-time lighting pipelines.
+///
+/// Describe a scene in a script, draw it with one pipeline or another, and see what each costs and
+/// where their pictures differ.
+#[derive(Debug, Parser)]
+#[command(
+    name = "lightbench",
+    version,
+    max_term_width = 100,
+    propagate_version = true,
+    arg_required_else_help = true,
+    after_help = "\
+Start with:
+  lightbench edit                                       look round the default scene
+  lightbench render atrium --out atrium.png             one picture, without a window
+  lightbench compare atrium --out report                which pipeline is faster, and by how much
+  lightbench new my-project                             a place for scenes and shaders of your own
+
+`lightbench help COMMAND` explains a command, with examples.
+The exit status is 0 if all went well, 1 if not, 2 if the command was mistyped."
+)]
+struct Arguments {
+    /// The project's folder; without it, the project that the current folder belongs to
+    #[arg(long, value_name = "DIR", global = true)]
+    project: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Opens the editor
+    Edit(edit::Arguments),
+    /// Writes one picture of a scene, as PNG or EXR
+    Render(render::Arguments),
+    /// Measures pipelines on one scene and writes a report
+    Compare(compare::Arguments),
+    /// Says how far apart two pictures are
+    Diff(diff::Arguments),
+    /// Lists pipelines, scenes, adapters or files
+    List(list::Arguments),
+    /// Makes a project for scenes, pipelines and shaders of your own
+    New(new::NewArguments),
+    /// Copies a shipped file into the project, so that it can be edited
+    Copy(new::CopyArguments),
+    /// Checks a pipeline and prints every mistake in it
+    CheckPipeline(check_pipeline::Arguments),
+    /// Says what is here, what is missing, and how to mend it
+    Doctor,
+}
+
+/// Runs the program with the arguments of the process.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version come here too. A reader that went away needs neither.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    faults::start_log();
+    faults::catch(|| report::finish(run(arguments)))
+}
+
+fn run(arguments: Arguments) -> anyhow::Result<()> {
+    let project = arguments.project.as_deref();
+    let files = || project::open(project);
+    match arguments.command {
+        Command::Edit(arguments) => edit::run(&arguments, files()?),
+        Command::Render(arguments) => render::run(&arguments, files()?),
+        Command::Compare(arguments) => compare::run(&arguments, files()?),
+        Command::Diff(arguments) => diff::run(&arguments),
+        Command::List(arguments) => list::run(&arguments, &files()?),
+        Command::New(arguments) => new::new(&arguments),
+        Command::Copy(arguments) => new::copy(&arguments, &files()?),
+        Command::CheckPipeline(arguments) => check_pipeline::run(&arguments, files()?),
+        Command::Doctor => doctor::run(&files()?),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_arguments_are_sound() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,53 @@
+//! On what it was measured.
+
+use lightbench_render::gpu::AdapterSummary;
+use sysinfo::System;
+
+use crate::report::{Adapter, Machine};
+
+impl Machine {
+    /// This computer.
+    pub fn this() -> Self {
+        let mut system = System::new();
+        system.refresh_memory();
+        system.refresh_cpu_list(sysinfo::CpuRefreshKind::nothing());
+        let cpu = system.cpus().first().map(|cpu| cpu.brand().trim());
+        let os = System::long_os_version().unwrap_or_else(|| std::env::consts::OS.to_owned());
+        let kernel = System::kernel_version().map_or_else(String::new, |v| format!(", kernel {v}"));
+        Self {
+            cpu: match cpu {
+                None | Some("") => format!("unknown ({})", std::env::consts::ARCH),
+                Some(name) => name.to_owned(),
+            },
+            cores: std::thread::available_parallelism().map_or(1, |n| n.get() as u32),
+            memory_bytes: system.total_memory(),
+            os: format!("{}{kernel}", os.trim()),
+        }
+    }
+}
+
+impl From<&AdapterSummary> for Adapter {
+    fn from(summary: &AdapterSummary) -> Self {
+        Self {
+            name: summary.name.clone(),
+            driver: summary.driver.clone(),
+            driver_info: summary.driver_info.clone(),
+            backend: summary.backend.clone(),
+            kind: summary.kind.to_owned(),
+            software: summary.software,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn this_computer_has_a_name_and_memory() {
+        let machine = Machine::this();
+        assert!(!machine.cpu.is_empty() && !machine.os.is_empty());
+        assert!(machine.cores >= 1);
+        assert!(machine.memory_bytes > 64 << 20, "{machine:?}");
+    }
+}

@@ -1,0 +1,114 @@
+//! The measurements of one pipeline, frame by frame.
+
+use lightbench_render::gpu::Gpu;
+use lightbench_render::queries::Measured;
+use lightbench_render::{FrameStatistics, Pipeline};
+
+use crate::report::{Parameter, PassResult, PipelineResult, TargetResult};
+
+/// What the adapter can't measure, in words for the report.
+#[derive(Clone, Debug)]
+pub(super) struct Missing {
+    gpu_time: Option<String>,
+    fragments: Option<String>,
+}
+
+impl Missing {
+    pub(super) fn of(gpu: &Gpu) -> Self {
+        let name = &gpu.summary.name;
+        let lacks = |what: &str| format!("{name}: {what}");
+        Self {
+            gpu_time: (!gpu.has_timestamps())
+                .then(|| lacks("no timestamp queries, so the GPU time is unknown")),
+            fragments: (!gpu.has_pipeline_statistics())
+                .then(|| lacks("no pipeline statistics, so fragments are not counted")),
+        }
+    }
+}
+
+/// Collects frames of one pipeline.
+pub(super) struct Series {
+    result: PipelineResult,
+    /// GPU time of each frame and of its passes; NaN where a frame's queries were lost.
+    frames: Vec<f64>,
+    passes: Vec<Vec<f64>>,
+}
+
+impl Series {
+    pub(super) fn new(pipeline: &Pipeline, frames: usize) -> Self {
+        let desc = &pipeline.desc;
+        let passes = desc.passes.iter().map(|pass| PassResult {
+            name: pass.name.clone(),
+            kind: pass.kind.name().to_owned(),
+            cpu_ms: Vec::with_capacity(frames),
+            ..PassResult::default()
+        });
+        let parameters = desc.parameters.iter().map(|parameter| Parameter {
+            name: parameter.name.clone(),
+            value: parameter.value.to_string(),
+        });
+        Self {
+            result: PipelineResult {
+                name: desc.name.clone(),
+                title: desc.title.clone(),
+                description: desc.description.clone(),
+                parameters: parameters.collect(),
+                features_needed: desc.features_needed(),
+                passes: passes.collect(),
+                frame_cpu_ms: Vec::with_capacity(frames),
+                ..PipelineResult::default()
+            },
+            frames: Vec::with_capacity(frames),
+            passes: vec![Vec::with_capacity(frames); desc.passes.len()],
+        }
+    }
+
+    /// Adds a frame. `measured` is what its queries brought.
+    pub(super) fn add(&mut self, statistics: &FrameStatistics, measured: Option<&Measured>) {
+        let cpu = statistics.extract_ms + statistics.record_ms;
+        self.result.frame_cpu_ms.push(cpu);
+        let total = measured.and_then(|measured| measured.total_ms);
+        self.frames.push(total.unwrap_or(f64::NAN));
+        let passes = self.result.passes.iter_mut().zip(&mut self.passes);
+        for (index, ((pass, times), cost)) in passes.zip(&statistics.passes).enumerate() {
+            let time = measured.and_then(|measured| measured.gpu_ms.get(index));
+            times.push(time.copied().unwrap_or(f64::NAN));
+            pass.cpu_ms.push(cost.cpu_ms);
+            pass.draws = u64::from(cost.draws);
+            pass.instances = u64::from(cost.instances);
+            pass.triangles = cost.triangles;
+            pass.bytes_read = cost.traffic.read;
+            pass.bytes_written = cost.traffic.written;
+            if let Some(measured) = measured {
+                pass.fragments = measured.fragments.get(index).copied();
+            }
+        }
+    }
+
+    /// The frames as a result, without its picture.
+    pub(super) fn finish(self, pipeline: &Pipeline, missing: &Missing) -> PipelineResult {
+        let mut result = self.result;
+        let timed = missing.gpu_time.is_none();
+        result.frame_gpu_ms = timed.then_some(self.frames);
+        result.gpu_why_not.clone_from(&missing.gpu_time);
+        for (pass, times) in result.passes.iter_mut().zip(self.passes) {
+            pass.gpu_ms = timed.then_some(times);
+            let reasons = [&missing.gpu_time, &missing.fragments];
+            let reasons: Vec<&str> = reasons.into_iter().flatten().map(String::as_str).collect();
+            pass.why_not = (!reasons.is_empty()).then(|| reasons.join("; "));
+        }
+        let memory = pipeline.target_memory();
+        result.target_bytes_total = memory.iter().map(|target| target.bytes).sum();
+        result.targets = memory
+            .into_iter()
+            .map(|target| TargetResult {
+                name: target.name,
+                format: target.format.name(),
+                size: [target.size.0, target.size.1],
+                samples: 1,
+                bytes: target.bytes,
+            })
+            .collect();
+        result
+    }
+}
