@@ -243,6 +243,18 @@ impl Explainer<'_> {
     }
 
     fn no_method(&self, receiver: &str, name: &str, kinds: &[String]) -> Mistake {
+        if self
+            .names
+            .members(receiver, true)
+            .any(|known| known == name)
+            && !self
+                .names
+                .members(receiver, false)
+                .any(|known| known == name)
+        {
+            return Mistake::new(format!("`{name}` of {} is no method", kind(receiver)))
+                .with_hint(format!("it is written without parentheses: `.{name}`"));
+        }
         let forms = self.names.forms(Some(receiver), name);
         if !forms.is_empty() {
             return Mistake::new(format!("`.{name}` can't be called with {}", given(kinds)))

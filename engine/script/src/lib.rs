@@ -21,6 +21,8 @@ mod limits;
 mod log;
 mod math;
 mod memory;
+#[cfg(test)]
+mod message_tests;
 mod names;
 mod noise;
 mod pipeline;

@@ -23,7 +23,8 @@ pub struct Limits {
     pub nesting: usize,
     /// Bytes of one text.
     pub text_bytes: usize,
-    /// Elements of one array.
+    /// Elements of one array. Rhai counts all elements after each change of an array or a map, so
+    /// that higher bounds let a script spend its time on counting.
     pub array_elements: usize,
     /// Entries of one map.
     pub map_entries: usize,
@@ -55,8 +56,8 @@ impl Default for Limits {
             call_depth: 64,
             nesting: 64,
             text_bytes: 1 << 20,
-            array_elements: 1_000_000,
-            map_entries: 100_000,
+            array_elements: 100_000,
+            map_entries: 10_000,
             variables: 10_000,
             functions: 1_000,
             modules: 64,

@@ -270,11 +270,11 @@ fn quaternions(api: &mut Api) {
     api.method("inverse()", "The rotation back.", |q: DQuat, _| {
         Ok(q.inverse())
     });
-    api.method(
-        "apply(vector)",
-        "The vector after the rotation.",
-        |q: DQuat, a| Ok(q * a.vector(0)?),
-    );
+    for form in ["apply(x, y, z)", "apply(vector)"] {
+        api.method(form, "The vector after the rotation.", |q: DQuat, a| {
+            Ok(q * a.vector(0)?)
+        });
+    }
     api.getter(
         "angles",
         "The rotation as degrees about x, y and z, as `turn` takes them.",

@@ -15,7 +15,7 @@ pub(crate) fn explain(explainer: &Explainer, cause: &ParseErrorType, at: Place) 
         P::UnexpectedEOF => Mistake::new("the file ends in the middle of a sentence")
             .with_hint("a `}`, `)` or `]` is missing somewhere above"),
         P::BadInput(cause) => lexical(explainer, cause),
-        P::UnknownOperator(symbol) => Mistake::new(format!("there is no operator `{symbol}`")),
+        P::UnknownOperator(symbol) => symbol_of_other_language(symbol),
         P::MissingToken(token, purpose) => {
             let mistake = Mistake::new(format!("a `{token}` is missing {purpose}"));
             let at = if matches!(token.as_str(), ";" | ")" | "]" | ",") {
@@ -69,8 +69,10 @@ pub(crate) fn explain(explainer: &Explainer, cause: &ParseErrorType, at: Place) 
                 .with_hint("declare it with `let` in place of `const`")
         }
         P::AssignmentToInvalidLHS(_) => {
-            Mistake::new("what stands left of the `=` can't be changed")
-                .with_hint("two values are compared with `==`")
+            Mistake::new("what stands left of the `=` can't be changed").with_hint(
+                "two values are compared with `==`; what a function gives is named first: \
+                 `let lamp = entity(\"lamp\"); lamp.intensity = 2;`",
+            )
         }
         P::ExprTooDeep => Mistake::new(format!(
             "the nesting is deeper than {} levels",
@@ -95,6 +97,9 @@ fn problem(at: Place, mistake: Mistake) -> Problem {
 
 fn lexical(explainer: &Explainer, cause: &LexError) -> Mistake {
     match cause {
+        LexError::UnexpectedInput(text) if matches!(text.as_str(), "}" | ")" | "]" | ";" | ",") => {
+            Mistake::new(format!("a value is missing in front of `{text}`"))
+        }
         LexError::UnexpectedInput(text) => Mistake::new(format!("`{text}` has no meaning here")),
         LexError::UnterminatedString => Mistake::new("the text has no closing quote")
             .with_hint("a text stands in \"double quotes\" on one line"),

@@ -3,7 +3,7 @@
 use lightbench_world::glam::Vec3;
 use lightbench_world::{Light, LightKind, Transform};
 
-use super::data::Stage;
+use super::data::{Data, Stage};
 use super::entities::{getter, maker, method, setter, start};
 use crate::api::{Api, Arguments, Mistake};
 use crate::color::Color;
@@ -70,93 +70,99 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
         light.color = color;
         data.insert(entity, light)
     });
-    number(
-        api,
-        stage,
-        "intensity",
-        "strength",
-        "The strength of a light: W/sr for points and spots, W/m² for directional and W/(m² sr) \
-         for ambient lights.",
-        &ALL,
-        |a| a.number_in(0, 0.0, 1e9),
-        |light| &mut light.intensity,
-        |shown| shown,
-    );
-    number(
-        api,
-        stage,
-        "range",
-        "metres",
-        "The distance at which a point or spot light has faded to nothing.",
-        &BOUNDED,
-        |a| a.number_in(0, 1e-3, 1e6),
-        |light| &mut light.range,
-        |shown| shown,
-    );
-    number(
-        api,
-        stage,
-        "inner",
-        "degrees",
-        "The full angle of the cone in which a spot light is at full strength.",
-        &[LightKind::Spot],
-        |a| a.number_in(0, 0.0, 360.0).map(f64::to_radians),
-        |light| &mut light.inner_angle,
-        f64::to_degrees,
-    );
-    number(
-        api,
-        stage,
-        "outer",
-        "degrees",
-        "The full angle of the cone outside which a spot light is dark.",
-        &[LightKind::Spot],
-        |a| a.number_in(0, 0.0, 360.0).map(f64::to_radians),
-        |light| &mut light.outer_angle,
-        f64::to_degrees,
-    );
+    for number in NUMBERS {
+        register_number(api, stage, number);
+    }
 }
 
-const ALL: [LightKind; 4] = [
-    LightKind::Point,
-    LightKind::Spot,
-    LightKind::Directional,
-    LightKind::Ambient,
-];
-const BOUNDED: [LightKind; 2] = [LightKind::Point, LightKind::Spot];
-
-/// Registers a number of a light as method and property.
-#[allow(clippy::too_many_arguments)] // One table row per number of a light.
-fn number(
-    api: &mut Api,
-    stage: &Stage,
+/// A number of a light, which scripts see as a method and as a property.
+#[derive(Clone, Copy)]
+struct Number {
     name: &'static str,
-    argument: &str,
+    form: &'static str,
     about: &'static str,
+    /// Which lights have it.
     kinds: &'static [LightKind],
-    read: fn(&Arguments) -> Result<f64, Mistake>,
+    range: (f64, f64),
+    /// What one unit of the script is in the light.
+    unit: f64,
     field: fn(&mut Light) -> &mut f32,
-    show: fn(f64) -> f64,
-) {
-    let change = move |data: &mut super::data::Data, entity, a: &Arguments| {
-        let value = read(a)? as f32;
+}
+
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+const NUMBERS: [Number; 4] = [
+    Number {
+        name: "intensity",
+        form: "intensity(strength)",
+        about: "The strength of a light: W/sr for points and spots, W/m² for directional and \
+                W/(m² sr) for ambient lights.",
+        kinds: &[
+            LightKind::Point,
+            LightKind::Spot,
+            LightKind::Directional,
+            LightKind::Ambient,
+        ],
+        range: (0.0, 1e9),
+        unit: 1.0,
+        field: |light| &mut light.intensity,
+    },
+    Number {
+        name: "range",
+        form: "range(metres)",
+        about: "The distance at which a point or spot light has faded to nothing.",
+        kinds: &[LightKind::Point, LightKind::Spot],
+        range: (1e-3, 1e6),
+        unit: 1.0,
+        field: |light| &mut light.range,
+    },
+    Number {
+        name: "inner",
+        form: "inner(degrees)",
+        about: "The full angle of the cone in which a spot light is at full strength.",
+        kinds: &[LightKind::Spot],
+        range: (0.0, 360.0),
+        unit: DEGREE,
+        field: |light| &mut light.inner_angle,
+    },
+    Number {
+        name: "outer",
+        form: "outer(degrees)",
+        about: "The full angle of the cone outside which a spot light is dark.",
+        kinds: &[LightKind::Spot],
+        range: (0.0, 360.0),
+        unit: DEGREE,
+        field: |light| &mut light.outer_angle,
+    },
+];
+
+fn register_number(api: &mut Api, stage: &Stage, number: Number) {
+    let change = move |data: &mut Data, entity, a: &Arguments| {
+        let value = a.number_in(0, number.range.0, number.range.1)?;
         let mut light: Light = data.get(entity, "light")?;
-        if !kinds.contains(&light.kind) {
+        if !number.kinds.contains(&light.kind) {
             return Err(Mistake::new(format!(
-                "{} is {}, which has no `{name}`",
+                "{} is {}, which has no `{}`",
                 data.called(entity),
-                called(light.kind)
+                called(light.kind),
+                number.name
             )));
         }
-        *field(&mut light) = value;
+        *(number.field)(&mut light) = (value * number.unit) as f32;
         data.insert(entity, light)
     };
-    method(api, stage, &format!("{name}({argument})"), about, change);
-    getter(api, stage, name, about, move |data, entity| {
-        let mut light: Light = data.get(entity, "light")?;
-        Ok(show(f64::from(*field(&mut light))))
-    });
-    setter(api, stage, name, change);
+    method(api, stage, number.form, number.about, change);
+    getter(
+        api,
+        stage,
+        number.name,
+        number.about,
+        move |data, entity| {
+            let mut light: Light = data.get(entity, "light")?;
+            Ok(f64::from(*(number.field)(&mut light)) / number.unit)
+        },
+    );
+    setter(api, stage, number.name, change);
 }
 
 fn called(kind: LightKind) -> &'static str {

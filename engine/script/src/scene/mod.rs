@@ -19,7 +19,7 @@ use lightbench_assets::{Assets, Progress};
 use lightbench_render::problem::suggestion;
 use lightbench_render::{Place, Problem, Problems};
 use lightbench_world::{Camera, Entity, World};
-use rhai::{AST, Dynamic, Module, Scope};
+use rhai::{AST, Dynamic, EvalAltResult, Module, Scope};
 
 use crate::host::{Extras, Host, find};
 use crate::limits::Limits;
@@ -248,8 +248,27 @@ impl Scene {
             Ok(_) => Ok(()),
             Err(error) => {
                 self.stopped = true;
-                Err(self.host.compiler.explain(&error, &self.path))
+                Err(self.explain_update(&error))
             }
+        }
+    }
+
+    fn explain_update(&self, error: &EvalAltResult) -> Problem {
+        let compiler = &self.host.compiler;
+        let problem = compiler.explain(error, &self.path);
+        // A limit that is hit inside knows only the place of the outermost call, which is ours.
+        let inside = matches!(error, EvalAltResult::ErrorInFunctionCall(..));
+        let source = compiler.sources.get(&self.path).unwrap_or_default();
+        match source.functions.iter().find(|f| f.name == "update") {
+            Some(function) if !inside => {
+                let at = Place::new(self.path.as_str(), function.line, function.column);
+                Problem {
+                    place: at,
+                    ..problem
+                }
+                .with_source(&source.text)
+            }
+            _ => problem,
         }
     }
 

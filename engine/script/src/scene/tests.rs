@@ -80,7 +80,8 @@ fn updates_move_things_and_remember() {
         fn update(time, dt) {
             entity("lamp").at(place(time));
             state.turns += 1;
-            entity("lamp").intensity = state.turns;
+            let lamp = entity("lamp");
+            lamp.intensity = state.turns;
         }
         "#,
     );
@@ -111,4 +112,199 @@ fn an_error_in_an_update_is_told_once() {
         transform.translation.y, 4.0,
         "what was done before the error stays"
     );
+}
+
+#[test]
+fn shipped_scenes_load_move_and_repeat() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let files = Files::with_project(folder).unwrap();
+    for (name, settings, entities) in [
+        ("cornell_box", Settings::new(), 7 + 1 + 9 + 1 + 1),
+        (
+            "many_lights",
+            Settings::new().with("lights", "20").with("spheres", 30.0),
+            1 + 30 + 20 + 1 + 1,
+        ),
+        ("showroom", Settings::new(), 1 + 1 + 1 + 1 + 12 + 1 + 1),
+    ] {
+        let run = || {
+            let mut scene = match load_scene(&files, name, &settings, &Progress::new()) {
+                Ok(scene) => scene,
+                Err(problems) => panic!("{name}: {problems}"),
+            };
+            for frame in 0..10 {
+                scene.update(f64::from(frame) / 60.0, 1.0 / 60.0).unwrap();
+            }
+            scene
+        };
+        let (first, second) = (run(), run());
+        assert_eq!(first.world.len(), entities, "{name}");
+        assert!(first.camera().is_some());
+        let rows = |scene: &Scene| -> Vec<(Transform, Option<Light>)> {
+            let entities = scene.world.entities();
+            entities
+                .map(|e| (scene.world.get(e).unwrap(), scene.world.get(e)))
+                .collect()
+        };
+        assert_eq!(
+            rows(&first),
+            rows(&second),
+            "{name} differs from run to run"
+        );
+    }
+}
+
+#[test]
+fn the_box_has_its_published_measures() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let files = Files::with_project(folder).unwrap();
+    let scene = load_scene(&files, "cornell_box", &Settings::new(), &Progress::new()).unwrap();
+    let area = |name: &str| {
+        let renderer: MeshRenderer = named(&scene, name);
+        scene.assets.mesh(renderer.mesh).unwrap().area()
+    };
+    // Trapezia and rectangles of Cornell's list, in units of 10 mm.
+    let floor = (5.528 + 5.496) / 2.0 * 5.592;
+    assert!((area("floor") - floor).abs() < 1e-3, "{}", area("floor"));
+    assert!((area("ceiling") - 5.56 * 5.592).abs() < 1e-3);
+    // Every face looks into the room.
+    let middle = Vec3::new(2.78, 2.74, 2.8);
+    for name in [
+        "floor",
+        "ceiling",
+        "back wall",
+        "right wall",
+        "left wall",
+        "lamp",
+    ] {
+        let renderer: MeshRenderer = named(&scene, name);
+        let mesh = scene.assets.mesh(renderer.mesh).unwrap();
+        assert!(
+            mesh.normals[0].dot(middle - mesh.positions[0]) > 0.0,
+            "{name}"
+        );
+    }
+    for name in ["short block", "tall block"] {
+        let renderer: MeshRenderer = named(&scene, name);
+        let mesh = scene.assets.mesh(renderer.mesh).unwrap();
+        let center = mesh.bounds().center;
+        for (normal, position) in mesh.normals.iter().zip(&mesh.positions) {
+            assert!(normal.dot(*position - center) > 0.0, "{name}");
+        }
+    }
+    let camera: Camera = named(&scene, "main");
+    assert!((camera.fov_y.to_degrees() - 39.3077).abs() < 1e-3);
+}
+
+#[test]
+fn parameters_are_set_and_refused() {
+    let text = "let n = param(\"lights\", 4, 0, 10, \"How many\");\nlet on = param(\"on\", true);\n\
+                let kind = param(\"kind\", [\"a\", \"b\"]);\nlet x = param(\"x\", 0.5, 0, 1);\n\
+                let path = param(\"path\", \"\");\nfor i in 0..n { spawn(); }\n\
+                if !on && kind == \"b\" && x == 1 && path == \"é.obj\" { spawn(\"all\"); }";
+    let settings = Settings::new()
+        .with("lights", "3")
+        .with("on", "off")
+        .with("kind", "b")
+        .with("x", 1.0)
+        .with("path", "é.obj");
+    let scene = load_with(text, &settings).unwrap();
+    assert!(scene.world.find("all").is_some());
+    assert_eq!(scene.world.len(), 3 + 1 + 1);
+    assert_eq!(scene.parameters.len(), 5);
+    assert_eq!(scene.parameters[0].description, "How many");
+    for (name, value, message) in [
+        (
+            "lights",
+            "2.5",
+            "`lights` takes a whole number from 0 to 10, not `2.5`",
+        ),
+        (
+            "lights",
+            "11",
+            "`lights` takes a whole number from 0 to 10, not `11`",
+        ),
+        (
+            "lights",
+            "NaN",
+            "`lights` takes a whole number from 0 to 10, not `NaN`",
+        ),
+        ("on", "maybe", "`on` takes `on` or `off`, not `maybe`"),
+        ("kind", "c", "`kind` takes `a` or `b`, not `c`"),
+        ("light", "3", "the scene has no parameter `light`"),
+    ] {
+        let error = load_with(text, &Settings::new().with(name, value)).unwrap_err();
+        assert_eq!(error.0[0].message, message);
+    }
+}
+
+#[test]
+fn families_names_and_removal() {
+    let mut scene = good(
+        r#"
+        let parent = spawn("parent").at(1, 0, 0).turn(0, 90, 0);
+        let child = spawn("child").parent(parent).at(0, 0, -2);
+        state.far = child.world_position;
+        state.count = parent.children.len();
+        let p = child.position;
+        child.position.y = 5;
+        child.position.y += p.z;
+        child.size = 2;
+        let gone = spawn("gone");
+        gone.remove();
+        print(gone.exists);
+        print(child.parent == parent);
+        print(`${child.name} at ${child.position}`);
+        print(vec3(1, 2.5, 3));
+        "#,
+    );
+    let child: Transform = named(&scene, "child");
+    assert_eq!(child.translation, Vec3::new(0.0, 3.0, -2.0));
+    assert_eq!(child.scale, Vec3::splat(2.0));
+    assert!(scene.world.find("gone").is_none());
+    let log: Vec<String> = scene.take_log().into_iter().map(|line| line.text).collect();
+    assert_eq!(log, ["false", "true", "child at (0, 3, -2)", "(1, 2.5, 3)"]);
+}
+
+#[test]
+fn a_scene_without_a_camera_gets_one_that_sees_everything() {
+    let scene = good("spawn().mesh(sphere(100)).at(1000, 0, 0);");
+    let camera = scene.camera().unwrap();
+    let transform: Transform = scene.world.get(camera).unwrap();
+    let lens: Camera = scene.world.get(camera).unwrap();
+    let to_center = Vec3::new(1000.0, 0.0, 0.0) - transform.translation;
+    let angle = (transform.rotation * Vec3::NEG_Z).angle_between(to_center);
+    assert!(angle < 1e-3);
+    let distance = to_center.length();
+    assert!((100.0 / distance).asin() < lens.fov_y / 2.0);
+    assert!(lens.near < distance - 100.0 && distance + 100.0 < lens.far);
+}
+
+#[test]
+fn models_become_families() {
+    let (_folder, files) = project(&[
+        (
+            "scripts/scenes/test.rhai",
+            "let m = load_obj(\"models/two.obj\");\nprint(m.high.x);",
+        ),
+        (
+            "models/two.obj",
+            "mtllib two.mtl\nv 0 0 0\nv 2 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n",
+        ),
+        (
+            "models/two.mtl",
+            "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\nmap_Kd none.png\n",
+        ),
+    ]);
+    let mut scene = load_scene(&files, "test", &Settings::new(), &Progress::new()).unwrap();
+    let model = scene.world.find("two").unwrap();
+    assert_eq!(scene.world.children(model).count(), 2);
+    assert!(scene.files().contains(&"models/two.obj".to_owned()));
+    let log = scene.take_log();
+    assert!(
+        log.iter().any(|line| line.text.contains("none.png")),
+        "{log:?}"
+    );
+    assert!(log.iter().any(|line| line.text == "2.0"), "{log:?}");
+    assert_eq!(log[0].place.line, 1);
 }
