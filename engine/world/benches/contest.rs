@@ -74,7 +74,10 @@ impl<'a> Contest<'a> {
     pub fn within(&self, way: &str, bar: Duration) {
         if let Some(time) = self.time(way) {
             let verdict = if time <= bar { "met" } else { "MISSED" };
-            println!("TIME {}: {way} {time:.3?} (bar {bar:?}) {verdict}", self.job);
+            println!(
+                "TIME {}: {way} {time:.3?} (bar {bar:?}) {verdict}",
+                self.job
+            );
         }
     }
 }

@@ -17,7 +17,9 @@ fn frustum() -> Frustum {
 fn random_spheres(count: usize) -> [Vec<f32>; 4] {
     let mut random = rand_pcg::Pcg64::seed_from_u64(9);
     let mut numbers = |least: f32, greatest: f32| -> Vec<f32> {
-        (0..count).map(|_| random.random_range(least..greatest)).collect()
+        (0..count)
+            .map(|_| random.random_range(least..greatest))
+            .collect()
     };
     [
         numbers(-300.0, 300.0),
@@ -60,7 +62,13 @@ fn cull_avx512(frustum: &Frustum, spheres: Spheres<'_>, visible: &mut Vec<u32>) 
     let mut found = 0;
     let mut rows = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let planes = frustum.planes.map(|plane| {
-        [plane.normal.x, plane.normal.y, plane.normal.z, plane.distance].map(|n| _mm512_set1_ps(n))
+        [
+            plane.normal.x,
+            plane.normal.y,
+            plane.normal.z,
+            plane.distance,
+        ]
+        .map(|n| _mm512_set1_ps(n))
     });
     for first in (0..count).step_by(16) {
         // SAFETY: `first + 16` is not beyond the arrays, and the list has room for
@@ -94,7 +102,12 @@ fn cull_avx512(frustum: &Frustum, spheres: Spheres<'_>, visible: &mut Vec<u32>) 
 
 fn many(criterion: &mut criterion::Criterion, count: usize, job: &'static str) {
     let [x, y, z, radius] = random_spheres(count);
-    let spheres = Spheres { x: &x, y: &y, z: &z, radius: &radius };
+    let spheres = Spheres {
+        x: &x,
+        y: &y,
+        z: &z,
+        radius: &radius,
+    };
     let frustum = frustum();
     let mut visible = Vec::new();
     let mut contest = Contest::new(criterion, job);
@@ -106,9 +119,11 @@ fn many(criterion: &mut criterion::Criterion, count: usize, job: &'static str) {
     contest.enter("by hand, a branch a sphere", || {
         visible.clear();
         for row in 0..count {
-            if frustum.planes.iter().all(|plane| {
-                plane.distance_to(x[row], y[row], z[row]) + radius[row] >= 0.0
-            }) {
+            if frustum
+                .planes
+                .iter()
+                .all(|plane| plane.distance_to(x[row], y[row], z[row]) + radius[row] >= 0.0)
+            {
                 visible.push(row as u32);
             }
         }
@@ -139,9 +154,13 @@ fn many(criterion: &mut criterion::Criterion, count: usize, job: &'static str) {
 
     let mut culler = Culler::default();
     let mut lists = Vec::new();
-    contest.enter("world, all threads", || culler.cull(&[frustum], spheres, &mut lists));
+    contest.enter("world, all threads", || {
+        culler.cull(&[frustum], spheres, &mut lists)
+    });
     assert_eq!(lists[0], expected);
-    contest.enter("world, all threads, four views", || culler.cull(&[frustum; 4], spheres, &mut lists));
+    contest.enter("world, all threads, four views", || {
+        culler.cull(&[frustum; 4], spheres, &mut lists)
+    });
 
     let objects: Vec<Object> = (0..count)
         .map(|row| Object {

@@ -4,11 +4,12 @@
 use std::time::Duration;
 
 use glam::camera::rh::proj::directx;
+use glam::camera::rh::view::look_at_mat4;
 use glam::{Affine3A, Quat, Vec3};
 use lightbench_world::culling::{Frustum, cull_spheres};
 use lightbench_world::systems::{update_bounds, update_world_matrices};
 use lightbench_world::{
-    Entity, Light, MeshBounds, MeshRenderer, Transform, World, WorldBounds, WorldMatrix,
+    Entity, Light, Mailbox, MeshBounds, MeshRenderer, Transform, World, WorldBounds, WorldMatrix,
 };
 use lightbench_world_benches::{Contest, criterion};
 
@@ -59,7 +60,10 @@ impl ByHand {
             rotation: places.iter().map(|place| place.rotation).collect(),
             scale: places.iter().map(|place| place.scale).collect(),
             parent: (0..COUNT)
-                .map(|i| i.checked_sub(level).map_or(u32::MAX, |parent| parent as u32))
+                .map(|i| {
+                    i.checked_sub(level)
+                        .map_or(u32::MAX, |parent| parent as u32)
+                })
                 .collect(),
             matrix: vec![Affine3A::IDENTITY; COUNT],
         }
@@ -132,7 +136,12 @@ fn many_lights(criterion: &mut criterion::Criterion) {
         .spawn_batch((0..1024).map(|i| (at(i * 9, 1.0), Light::default())))
         .to_vec();
     let projection = directx::perspective(1.0, 16.0 / 9.0, 500.0, 0.1);
-    let frustum = Frustum::from_view_projection(projection);
+    let view = look_at_mat4(
+        Vec3::new(50.0, 30.0, -40.0),
+        Vec3::new(50.0, 0.0, 50.0),
+        Vec3::Y,
+    );
+    let frustum = Frustum::from_view_projection(projection * view);
     let mut visible = Vec::new();
     let mut rows: Vec<(Affine3A, u32)> = Vec::new();
     let mut contest = Contest::new(criterion, "a frame of 10,000 objects and 1,024 lights");
@@ -144,24 +153,53 @@ fn many_lights(criterion: &mut criterion::Criterion) {
         }
         update_world_matrices(&mut world);
         update_bounds(&mut world, &bounds);
-        cull_spheres(&frustum, world.columns::<WorldBounds>().spheres(), &mut visible);
+        cull_spheres(
+            &frustum,
+            world.columns::<WorldBounds>().spheres(),
+            &mut visible,
+        );
         let renderers = world.columns::<MeshRenderer>();
         let matrices = world.columns::<WorldMatrix>();
         rows.clear();
         for &row in &visible {
             let entity = renderers.entities()[row as usize];
             if let Some(place) = matrices.row_of(entity) {
-                rows.push((matrices.matrix()[place], renderers.material()[row as usize].0));
+                rows.push((
+                    matrices.matrix()[place],
+                    renderers.material()[row as usize].0,
+                ));
             }
         }
         rows.len()
     });
     contest.within("systems and extraction", Duration::from_millis(2));
+    println!("{} of 10,000 visible", visible.len());
+}
+
+/// 100,000 messages to 10,000 entities.
+fn messages(criterion: &mut criterion::Criterion) {
+    let mut world = World::new();
+    let entities: Vec<Entity> = (0..10_000).map(|_| world.spawn()).collect();
+    let mut mailbox = Mailbox::<(u32, f32)>::default();
+    let mut contest = Contest::new(criterion, "100,000 messages");
+    contest.enter("send and deliver", || {
+        for (batch, outbox) in mailbox.outboxes(10).iter_mut().enumerate() {
+            for i in 0..10_000 {
+                outbox.send(
+                    entities[(i * 7919 + batch) % entities.len()],
+                    (i as u32, 0.5),
+                );
+            }
+        }
+        mailbox.deliver(&world)
+    });
+    contest.within("send and deliver", Duration::from_millis(16));
 }
 
 fn main() {
     let mut criterion = criterion();
     matrices(&mut criterion);
     many_lights(&mut criterion);
+    messages(&mut criterion);
     criterion.final_summary();
 }

@@ -14,16 +14,22 @@ const COUNT: usize = 1_000_000;
 const STEP: f32 = 1.0 / 60.0;
 
 #[derive(Clone, Copy, Component)]
+#[allow(dead_code)]
 struct Place(Transform);
 #[derive(Clone, Copy, Component)]
+#[allow(dead_code)]
 struct Matrix(WorldMatrix);
 #[derive(Clone, Copy, Component)]
+#[allow(dead_code)]
 struct Speed(Velocity);
 #[derive(Clone, Copy, Component)]
+#[allow(dead_code)]
 struct Lamp(Light);
 #[derive(Clone, Copy, Component)]
+#[allow(dead_code)]
 struct Position(Vec3);
 #[derive(Clone, Copy, Component)]
+#[allow(dead_code)]
 struct Direction(Vec3);
 
 fn place(i: usize) -> Transform {
@@ -76,18 +82,54 @@ struct Arrays {
 macro_rules! each {
     ($arrays:expr, $array:ident => $body:expr) => {{
         let arrays = $arrays;
-        {let $array = &mut arrays.translation; $body;}
-        {let $array = &mut arrays.rotation; $body;}
-        {let $array = &mut arrays.scale; $body;}
-        {let $array = &mut arrays.matrix; $body;}
-        {let $array = &mut arrays.linear; $body;}
-        {let $array = &mut arrays.angular; $body;}
-        {let $array = &mut arrays.kind; $body;}
-        {let $array = &mut arrays.color; $body;}
-        {let $array = &mut arrays.intensity; $body;}
-        {let $array = &mut arrays.range; $body;}
-        {let $array = &mut arrays.inner; $body;}
-        {let $array = &mut arrays.outer; $body;}
+        {
+            let $array = &mut arrays.translation;
+            $body;
+        }
+        {
+            let $array = &mut arrays.rotation;
+            $body;
+        }
+        {
+            let $array = &mut arrays.scale;
+            $body;
+        }
+        {
+            let $array = &mut arrays.matrix;
+            $body;
+        }
+        {
+            let $array = &mut arrays.linear;
+            $body;
+        }
+        {
+            let $array = &mut arrays.angular;
+            $body;
+        }
+        {
+            let $array = &mut arrays.kind;
+            $body;
+        }
+        {
+            let $array = &mut arrays.color;
+            $body;
+        }
+        {
+            let $array = &mut arrays.intensity;
+            $body;
+        }
+        {
+            let $array = &mut arrays.range;
+            $body;
+        }
+        {
+            let $array = &mut arrays.inner;
+            $body;
+        }
+        {
+            let $array = &mut arrays.outer;
+            $body;
+        }
     }};
 }
 
@@ -175,7 +217,9 @@ fn integrate(criterion: &mut criterion::Criterion) {
     });
 
     let mut hecs = hecs::World::new();
-    hecs.spawn_batch((0..COUNT).map(|i| (Position(place(i).translation), Direction(speed(i).linear))));
+    hecs.spawn_batch(
+        (0..COUNT).map(|i| (Position(place(i).translation), Direction(speed(i).linear))),
+    );
     contest.enter("hecs", || {
         for (place, speed) in hecs.query_mut::<(&mut Position, &Direction)>() {
             place.0 += speed.0 * STEP;
@@ -183,7 +227,9 @@ fn integrate(criterion: &mut criterion::Criterion) {
     });
 
     let mut bevy = bevy_ecs::world::World::new();
-    bevy.spawn_batch((0..COUNT).map(|i| (Position(place(i).translation), Direction(speed(i).linear))));
+    bevy.spawn_batch(
+        (0..COUNT).map(|i| (Position(place(i).translation), Direction(speed(i).linear))),
+    );
     let mut query = bevy.query::<(&mut Position, &Direction)>();
     contest.enter("bevy_ecs", || {
         query.iter_mut(&mut bevy).for_each(|(mut place, speed)| {
@@ -200,7 +246,9 @@ fn spawn(criterion: &mut criterion::Criterion) {
     let mut contest = Contest::new(criterion, "spawn 1,000,000 entities with four components");
     contest.enter_timed("by hand", || timed(|| (), |()| Arrays::with_rows(COUNT)));
     contest.enter_timed("world", || {
-        timed(World::new, |world| world.spawn_batch((0..COUNT).map(row)).len())
+        timed(World::new, |world| {
+            world.spawn_batch((0..COUNT).map(row)).len()
+        })
     });
     contest.enter_timed("hecs", || {
         timed(hecs::World::new, |world| {
@@ -247,7 +295,10 @@ fn remove(criterion: &mut criterion::Criterion) {
     });
     contest.enter_timed("world, one by one", || {
         timed(fresh, |world| {
-            chosen.iter().filter(|&&entity| world.despawn(entity)).count()
+            chosen
+                .iter()
+                .filter(|&&entity| world.despawn(entity))
+                .count()
         })
     });
 
@@ -260,7 +311,10 @@ fn remove(criterion: &mut criterion::Criterion) {
     let chosen = &shuffled(&handles)[..COUNT / 2];
     contest.enter_timed("hecs", || {
         timed(fresh, |world| {
-            chosen.iter().filter(|&&entity| world.despawn(entity).is_ok()).count()
+            chosen
+                .iter()
+                .filter(|&&entity| world.despawn(entity).is_ok())
+                .count()
         })
     });
     contest.ratio("world", "hecs", 0.6);

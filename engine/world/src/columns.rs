@@ -7,7 +7,7 @@ use crate::bits::{BitSet, Scratch};
 use crate::entity::Entity;
 use crate::merge::EntityMap;
 use crate::reflect::{ComponentInfo, FieldInfo};
-use crate::row_map::{Layout, RowMap};
+use crate::row_map::{RowMap, RowOrder};
 use crate::ticks::{ChangeTicks, Tick};
 use crate::value::Value;
 
@@ -217,7 +217,7 @@ impl<C: Component> Columns<C> {
 
     /// Names the present order of rows. While it stays the same, so does the
     /// entity of every row.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> RowOrder {
         self.map.layout()
     }
 

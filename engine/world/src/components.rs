@@ -199,7 +199,7 @@ components! {
 
     /// Moves the entity evenly, in its parent's space.
     #[derive(Copy)]
-    velocity: Velocity, Shown {
+    velocity: Velocity, Hidden {
         /// Change of the translation.
         linear: Vec3 = Vec3::ZERO, "m/s", ANY;
         /// Axis of the turn in the parent's space, as long as the turn is fast.

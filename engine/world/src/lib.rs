@@ -6,10 +6,15 @@
 //! nothing else. See [`World`] for an example.
 //!
 //! - [`components`]: every component, each declared once.
-//! - [`Columns`]: the rows of one component, and which of them changed.
-//! - [`systems`]: world matrices and bounds.
-//! - [`culling`]: which bounds a view shows.
-//! - [`fields`] and [`reflect`]: components by name.
+//! - [`Columns`]: the rows of one component, and which of them changed; [`Join`]:
+//!   several components together.
+//! - [`World`]: entities, trees, tags and groups; batches, merging and snapshots.
+//! - [`Commands`] and [`Mailbox`]: changes and messages that wait for their time.
+//! - [`systems`] and [`Schedule`]: world matrices, bounds and motion, in parallel
+//!   where their declarations allow it.
+//! - [`culling`]: which bounds a view shows or a light reaches.
+//! - [`fields`], [`reflect`] and [`scene_file`]: components by name, and as text.
+//! - [`layouts`]: the same jobs on other layouts, to measure the difference.
 
 mod access;
 mod batches;
@@ -59,7 +64,7 @@ pub use hierarchy::Children;
 pub use merge::{EntityMap, Snapshot};
 pub use messages::{Mailbox, Outbox};
 pub use query::Join;
-pub use row_map::Layout;
+pub use row_map::RowOrder;
 pub use schedule::Schedule;
 pub use sets::EntitySets;
 pub use stores::Stored;

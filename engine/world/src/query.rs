@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use crate::columns::Columns;
 use crate::entity::Entity;
-use crate::row_map::Layout;
+use crate::row_map::RowOrder;
 use crate::stores::Stored;
 use crate::world::World;
 
@@ -50,7 +50,7 @@ pub trait Joined<const N: usize> {
     /// The columns of a world.
     fn columns(world: &World) -> Self::Columns<'_>;
     /// The order of rows in each component.
-    fn layouts(columns: Self::Columns<'_>) -> [Layout; N];
+    fn layouts(columns: Self::Columns<'_>) -> [RowOrder; N];
     /// The entities of each component.
     fn entities<'a>(columns: Self::Columns<'a>) -> [&'a [Entity]; N];
     /// The row of an entity in each component, if it has them all.
@@ -64,7 +64,7 @@ macro_rules! joined {
             fn columns(world: &World) -> Self::Columns<'_> {
                 ($(world.columns::<$component>(),)*)
             }
-            fn layouts(($($columns,)*): Self::Columns<'_>) -> [Layout; $count] {
+            fn layouts(($($columns,)*): Self::Columns<'_>) -> [RowOrder; $count] {
                 [$($columns.layout()),*]
             }
             fn entities<'a>(($($columns,)*): Self::Columns<'a>) -> [&'a [Entity]; $count] {
@@ -102,7 +102,7 @@ joined!(4: A a, B b, C c, D d);
 #[derive(Clone, Debug)]
 pub struct Join<T: Joined<N>, const N: usize> {
     /// The orders for which the runs hold; none before the first update.
-    layouts: Option<[Layout; N]>,
+    layouts: Option<[RowOrder; N]>,
     runs: Vec<Run<N>>,
     components: PhantomData<fn() -> T>,
 }

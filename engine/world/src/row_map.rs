@@ -9,12 +9,12 @@ use crate::entity::Entity;
 /// entity of every row stays the same. No two sets of columns ever share one,
 /// copies of a world included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
+pub struct RowOrder {
     columns: u64,
     version: u64,
 }
 
-impl Layout {
+impl RowOrder {
     fn fresh() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self {
@@ -36,7 +36,7 @@ pub(crate) struct RowMap {
     /// The row of each entity, by slot index.
     rows: Vec<u32>,
     /// Changes with the order, so that a cached join knows when it is old.
-    layout: Layout,
+    layout: RowOrder,
 }
 
 impl Default for RowMap {
@@ -44,7 +44,7 @@ impl Default for RowMap {
         Self {
             entities: Vec::new(),
             rows: Vec::new(),
-            layout: Layout::fresh(),
+            layout: RowOrder::fresh(),
         }
     }
 }
@@ -54,7 +54,7 @@ impl Clone for RowMap {
         Self {
             entities: self.entities.clone(),
             rows: self.rows.clone(),
-            layout: Layout::fresh(),
+            layout: RowOrder::fresh(),
         }
     }
 }
@@ -64,7 +64,7 @@ impl RowMap {
         &self.entities
     }
 
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> RowOrder {
         self.layout
     }
 

@@ -5,7 +5,7 @@ use glam::{Affine2, Affine3A};
 use crate::columns::Columns;
 use crate::components::{Family, Transform, Transform2d, WorldMatrix, WorldMatrix2d};
 use crate::entity::Entity;
-use crate::row_map::Layout;
+use crate::row_map::RowOrder;
 use crate::stores::Stored;
 use crate::ticks::Tick;
 use crate::world::World;
@@ -77,7 +77,7 @@ const ROOT: u32 = u32::MAX;
 pub(crate) struct MatrixState {
     seen: Tick,
     /// Order of the transform's rows for which the plan holds.
-    layout: Option<Layout>,
+    layout: Option<RowOrder>,
     /// For each row the row of the nearest ancestor with a transform, or `ROOT`.
     /// Empty if no row has such an ancestor.
     parents: Vec<u32>,
