@@ -127,26 +127,32 @@ fn instance(backends: Backends) -> wgpu::Instance {
     wgpu::Instance::new(descriptor.with_env())
 }
 
-/// The adapters in the order of preference: hardware before software.
+/// The adapters of this machine, best first.
 ///
 /// OpenGL is looked at only where there is nothing better, or where the environment variable
 /// `WGPU_BACKEND` asks for it: starting it takes time, and without a desktop it complains.
 fn enumerate() -> Vec<wgpu::Adapter> {
-    let mut adapters = enumerate_with(Backends::PRIMARY);
+    let adapters = enumerate_in(&instance(Backends::PRIMARY));
     if adapters.is_empty() {
-        adapters = enumerate_with(Backends::GL);
+        return enumerate_in(&instance(Backends::GL));
     }
     adapters
 }
 
-fn enumerate_with(backends: Backends) -> Vec<wgpu::Adapter> {
-    let mut adapters = pollster::block_on(instance(backends).enumerate_adapters(Backends::all()));
-    adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
-        DeviceType::DiscreteGpu => 0,
-        DeviceType::IntegratedGpu => 1,
-        DeviceType::VirtualGpu => 2,
-        DeviceType::Other => 3,
-        DeviceType::Cpu => 4,
+/// The adapters in the order of preference: hardware before software, Vulkan, Metal and DirectX
+/// before OpenGL.
+fn enumerate_in(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
+    let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::all()));
+    adapters.sort_by_key(|adapter| {
+        let info = adapter.get_info();
+        let kind = match info.device_type {
+            DeviceType::DiscreteGpu => 0,
+            DeviceType::IntegratedGpu => 1,
+            DeviceType::VirtualGpu => 2,
+            DeviceType::Other => 3,
+            DeviceType::Cpu => 4,
+        };
+        (info.backend == wgpu::Backend::Gl, kind)
     });
     adapters
 }
@@ -200,7 +206,7 @@ impl Gpu {
         surface: &wgpu::Surface<'_>,
         options: &GpuOptions,
     ) -> Result<Self, GpuError> {
-        let mut adapters = enumerate(instance);
+        let mut adapters = enumerate_in(instance);
         adapters.retain(|adapter| adapter.is_surface_supported(surface));
         let adapter = Self::choose(adapters, options.adapter.as_deref())?;
         Self::from_adapter(adapter, options)
