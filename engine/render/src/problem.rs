@@ -127,7 +127,7 @@ impl From<Problem> for Problems {
 
 /// "did you mean `x`?" for the candidate nearest to a misspelt name, if one is near enough.
 ///
-/// Nearness is the Levenshtein distance; at most a third of the letters may differ.
+/// Nearness is the number of slips of the finger; at most one for three letters.
 pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let limit = (name.chars().count() / 3).max(1);
     candidates
@@ -138,21 +138,27 @@ pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>)
         .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
 }
 
-/// Levenshtein (1966) distance between two names, ignoring case.
+/// How many letters must be changed, added, left out or swapped with their neighbour to turn one
+/// name into the other, ignoring case (Damerau 1964; no letter takes part in two swaps).
 fn edit_distance(a: &str, b: &str) -> usize {
     let a: Vec<char> = a.to_lowercase().chars().collect();
     let b: Vec<char> = b.to_lowercase().chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, &from) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &to) in b.iter().enumerate() {
-            let substitute = diagonal + usize::from(from != to);
-            diagonal = row[j + 1];
-            row[j + 1] = substitute.min(row[j] + 1).min(diagonal + 1);
+    let mut before = Vec::new();
+    let mut above: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let changed = above[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = changed.min(above[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                let swapped: usize = before[j - 2];
+                least = least.min(swapped + 1);
+            }
+            row.push(least);
         }
+        before = std::mem::replace(&mut above, row);
     }
-    row[b.len()]
+    above[b.len()]
 }
 
 #[cfg(test)]
@@ -170,7 +176,15 @@ mod tests {
             suggestion("Depth", names).as_deref(),
             Some("did you mean `depth`?")
         );
+        assert_eq!(
+            suggestion("detph", names).as_deref(),
+            Some("did you mean `depth`?")
+        );
         assert_eq!(suggestion("shadow", names), None);
+        for (a, b, distance) in [("", "abc", 3), ("ca", "ac", 1), ("abcd", "badc", 2)] {
+            assert_eq!(edit_distance(a, b), distance);
+            assert_eq!(edit_distance(b, a), distance);
+        }
     }
 
     #[test]
