@@ -145,24 +145,17 @@ impl Explainer<'_> {
         }
     }
 
+    /// Rhai counts everything that a value holds, at any depth.
     pub(crate) fn too_large(&self, what: &str) -> Mistake {
         let what = what.to_lowercase();
-        if what.contains("string") {
-            Mistake::new(format!(
-                "the text is longer than {} bytes",
-                self.limits.text_bytes
-            ))
+        let (limit, unit) = if what.contains("string") {
+            (self.limits.text_bytes, "bytes of text")
         } else if what.contains("map") {
-            Mistake::new(format!(
-                "the map has more than {} entries",
-                self.limits.map_entries
-            ))
+            (self.limits.map_entries, "entries of maps")
         } else {
-            Mistake::new(format!(
-                "the array has more than {} elements",
-                self.limits.array_elements
-            ))
-        }
+            (self.limits.array_elements, "elements of arrays")
+        };
+        Mistake::new(format!("one value holds more than {limit} {unit}"))
     }
 
     /// A name that is neither here nor in the file.

@@ -21,12 +21,12 @@ pub struct Limits {
     pub call_depth: usize,
     /// How deep expressions and blocks may be nested.
     pub nesting: usize,
-    /// Bytes of one text.
+    /// Bytes of text that one value holds, at any depth.
     pub text_bytes: usize,
-    /// Elements of one array. Rhai counts all elements after each change of an array or a map, so
-    /// that higher bounds let a script spend its time on counting.
+    /// Elements of arrays that one value holds, at any depth. Rhai counts them all after each call
+    /// that may have changed the value.
     pub array_elements: usize,
-    /// Entries of one map.
+    /// Entries of maps that one value holds, at any depth.
     pub map_entries: usize,
     /// Variables alive at the same time.
     pub variables: usize,
@@ -36,11 +36,12 @@ pub struct Limits {
     pub modules: usize,
     /// Bytes of one script file.
     pub file_bytes: usize,
-    /// Wall time of loading a file. Time spent in reading models and painting textures is free.
+    /// Wall time of loading a file. Time spent in reading models, making meshes and painting
+    /// textures is free.
     pub load_time: Duration,
     /// Wall time of one update.
     pub update_time: Duration,
-    /// Bytes that all values of a run may hold together. Counted only in programs that use
+    /// Bytes that all values of a run may hold together, without its meshes and textures. Counted only in programs that use
     /// [`CountingAllocator`](crate::CountingAllocator).
     pub memory_bytes: usize,
     /// Entities that a scene may hold.
@@ -55,9 +56,9 @@ impl Default for Limits {
             operations: 50_000_000,
             call_depth: 64,
             nesting: 64,
-            text_bytes: 1 << 20,
-            array_elements: 100_000,
-            map_entries: 10_000,
+            text_bytes: 4 << 20,
+            array_elements: 1_000_000,
+            map_entries: 200_000,
             variables: 10_000,
             functions: 1_000,
             modules: 64,
@@ -118,10 +119,12 @@ impl Watch {
             .store(memory::live_bytes(), Ordering::Relaxed);
     }
 
-    /// Runs engine work whose time is not the script's.
+    /// Runs engine work whose time and memory are not the script's.
     pub(crate) fn free_of_charge<T>(&self, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
+        let (start, bytes) = (Instant::now(), memory::live_bytes());
         let result = work();
+        self.bytes_at_start
+            .fetch_add(memory::live_bytes() - bytes, Ordering::Relaxed);
         let spent = u64::try_from(start.elapsed().as_nanos()).unwrap_or(u64::MAX);
         // Saturating: a deadline of `u64::MAX` means that there is none.
         let deadline = self.deadline.load(Ordering::Relaxed).saturating_add(spent);

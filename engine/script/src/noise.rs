@@ -104,7 +104,7 @@ mod tests {
             squares += value * value;
             count += 1.0;
         }
-        assert!((sum / count as f64).abs() < 0.01);
+        assert!((sum / count).abs() < 0.01);
         assert!(squares / count > 0.05);
         assert_eq!(noise([3.0, -7.0, 12.0]), 0.0);
     }

@@ -43,12 +43,6 @@ pub(super) struct Data {
 pub(super) struct Stage(Arc<Mutex<Data>>);
 
 impl Stage {
-    pub(super) fn lock(&self) -> MutexGuard<'_, Data> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Data {
     pub(super) fn new(
         files: &Files,
         settings: &Settings,
@@ -56,8 +50,8 @@ impl Data {
         watch: &Arc<Watch>,
         log: &Log,
         progress: &Progress,
-    ) -> Stage {
-        Stage(Arc::new(Mutex::new(Self {
+    ) -> Self {
+        Self(Arc::new(Mutex::new(Data {
             world: World::new(),
             assets: Assets::new(),
             files: files.clone(),
@@ -74,6 +68,12 @@ impl Data {
         })))
     }
 
+    pub(super) fn lock(&self) -> MutexGuard<'_, Data> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Data {
     /// Makes an entity with a place, and a name unless that is empty.
     pub(super) fn spawn(&mut self, name: &str) -> Result<Entity, Mistake> {
         if self.world.len() >= self.limits.entities {

@@ -26,7 +26,7 @@ use crate::limits::Limits;
 use crate::log::LogLine;
 use crate::names::{Names, list as enumerate};
 use crate::settings::Settings;
-use data::{Data, Stage};
+use data::Stage;
 
 pub use list::{SceneEntry, list_scenes};
 pub use parameters::{SceneParameter, SceneParameterKind};
@@ -143,7 +143,7 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
         Extras {
             register: &mut |api, watch, log| {
                 watch.stop_with(progress);
-                let made = Data::new(files, settings, limits, watch, log, progress);
+                let made = Stage::new(files, settings, limits, watch, log, progress);
                 parameters::register(api, &made);
                 entities::register(api, &made);
                 bounds::register(api, &made);
@@ -160,7 +160,7 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
         },
     );
     let stage = stage
-        .unwrap_or_else(|| Data::new(files, settings, limits, &host.watch, &host.log, progress));
+        .unwrap_or_else(|| Stage::new(files, settings, limits, &host.watch, &host.log, progress));
     (host, stage)
 }
 
