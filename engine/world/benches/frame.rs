@@ -11,7 +11,7 @@ use lightbench_world::systems::{update_bounds, update_world_matrices};
 use lightbench_world::{
     Entity, Light, Mailbox, MeshBounds, MeshRenderer, Transform, World, WorldBounds, WorldMatrix,
 };
-use lightbench_world_benches::{Contest, criterion};
+use lightbench_world_benches::{Contest, criterion, now};
 
 const COUNT: usize = 100_000;
 const CHAIN: usize = 8;
@@ -99,7 +99,7 @@ fn matrices(criterion: &mut criterion::Criterion) {
             turn += 0.01;
             let rotations = world.columns_mut::<Transform>().slices_mut().rotation;
             rotations.fill(Quat::from_rotation_y(turn));
-            let start = std::time::Instant::now();
+            let start = now();
             update_world_matrices(&mut world);
             start.elapsed()
         });
@@ -114,7 +114,7 @@ fn matrices(criterion: &mut criterion::Criterion) {
         let mut place: Transform = world.get(one).unwrap_or_default();
         place.translation.x += 0.1;
         world.set(one, place).ok();
-        let start = std::time::Instant::now();
+        let start = now();
         update_world_matrices(&mut world);
         start.elapsed()
     });

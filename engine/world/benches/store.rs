@@ -1,12 +1,12 @@
 //! Creating, removing, looking up and walking a million entities: the world
 //! against hecs, bevy_ecs and arrays written by hand.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use bevy_ecs::component::Component;
 use glam::{Affine3A, Vec3};
 use lightbench_world::{Entity, Join, Light, Transform, Velocity, World, WorldMatrix};
-use lightbench_world_benches::{Contest, criterion};
+use lightbench_world_benches::{Contest, criterion, now};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 
@@ -181,7 +181,7 @@ impl Arrays {
 
 fn timed<T, U>(prepare: impl Fn() -> T, mut work: impl FnMut(&mut T) -> U) -> Duration {
     let mut subject = prepare();
-    let start = Instant::now();
+    let start = now();
     std::hint::black_box(work(&mut subject));
     let time = start.elapsed();
     drop(subject);

@@ -1,5 +1,7 @@
 //! Creating and removing many entities at once.
 
+use std::marker::PhantomData;
+
 use crate::bits::{BitSet, Scratch};
 use crate::columns::Columns;
 use crate::components::{Family, Stores};
@@ -10,30 +12,26 @@ use crate::stores::{Stored, VisitorMut};
 use crate::ticks::Tick;
 use crate::world::World;
 
-/// Bundles that are split into their components at a time: they fit into the
-/// fastest cache, from where each array takes its own.
+/// Entities whose rows get their place in the maps at a time.
 const CHUNK: usize = 128;
 
 /// Several components of one entity: a tuple of up to eight different ones.
 pub trait Bundle: Sized {
-    /// One vector for each component.
-    type Rows: Default;
     /// The bits of all components.
     const BITS: u32;
     /// Makes room in all columns, and sets the tick that the rows will carry.
     fn prepare(stores: &mut Stores, additional: usize, now: Tick);
-    /// Adds the components to their vectors.
-    fn split(self, rows: &mut Self::Rows);
-    /// Adds the rows of entities that have none yet, and empties the vectors.
-    fn extend(rows: &mut Self::Rows, stores: &mut Stores, entities: &[Entity], now: Tick);
+    /// Adds the fields to their arrays.
+    fn push(self, stores: &mut Stores);
+    /// Says whose rows the last ones are, as many as there are entities.
+    fn assign(stores: &mut Stores, entities: &[Entity], now: Tick);
     /// The entities of the first component.
     fn entities(stores: &Stores) -> &[Entity];
 }
 
 macro_rules! bundle {
-    ($first:ident $first_row:ident $first_rows:ident $(, $component:ident $row:ident $rows:ident)*) => {
+    ($first:ident $first_row:ident $(, $component:ident $row:ident)*) => {
         impl<$first: Stored, $($component: Stored),*> Bundle for ($first, $($component,)*) {
-            type Rows = (Vec<$first>, $(Vec<$component>,)*);
             const BITS: u32 = {
                 let bits = add_bits::<$first>(0);
                 $(let bits = add_bits::<$component>(bits);)*
@@ -44,19 +42,14 @@ macro_rules! bundle {
                 $(prepare::<$component>(stores, additional, now);)*
             }
             #[inline]
-            fn split(self, ($first_rows, $($rows,)*): &mut Self::Rows) {
+            fn push(self, stores: &mut Stores) {
                 let ($first_row, $($row,)*) = self;
-                $first_rows.push($first_row);
-                $($rows.push($row);)*
+                $first::columns_mut(stores).push_fields($first_row);
+                $($component::columns_mut(stores).push_fields($row);)*
             }
-            fn extend(
-                ($first_rows, $($rows,)*): &mut Self::Rows,
-                stores: &mut Stores,
-                entities: &[Entity],
-                now: Tick,
-            ) {
-                extend($first_rows, stores, entities, now);
-                $(extend($rows, stores, entities, now);)*
+            fn assign(stores: &mut Stores, entities: &[Entity], now: Tick) {
+                assign::<$first>(stores, entities, now);
+                $(assign::<$component>(stores, entities, now);)*
             }
             fn entities(stores: &Stores) -> &[Entity] {
                 $first::columns(stores).entities()
@@ -82,19 +75,19 @@ fn prepare<C: Stored>(stores: &mut Stores, additional: usize, now: Tick) {
     C::reserve_follower(stores, additional);
 }
 
-fn extend<C: Stored>(rows: &mut Vec<C>, stores: &mut Stores, entities: &[Entity], now: Tick) {
-    C::columns_mut(stores).extend(entities, rows);
+fn assign<C: Stored>(stores: &mut Stores, entities: &[Entity], now: Tick) {
+    C::columns_mut(stores).assign(entities);
     C::extend_follower(stores, entities, now);
 }
 
-bundle!(A a rows_a);
-bundle!(A a rows_a, B b rows_b);
-bundle!(A a rows_a, B b rows_b, C c rows_c);
-bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d);
-bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e);
-bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e, F f rows_f);
-bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e, F f rows_f, G g rows_g);
-bundle!(A a rows_a, B b rows_b, C c rows_c, D d rows_d, E e rows_e, F f rows_f, G g rows_g, H h rows_h);
+bundle!(A a);
+bundle!(A a, B b);
+bundle!(A a, B b, C c);
+bundle!(A a, B b, C c, D d);
+bundle!(A a, B b, C c, D d, E e);
+bundle!(A a, B b, C c, D d, E e, F f);
+bundle!(A a, B b, C c, D d, E e, F f, G g);
+bundle!(A a, B b, C c, D d, E e, F f, G g, H h);
 
 impl World {
     /// Creates an entity for each bundle of components, and returns them in the
@@ -116,17 +109,20 @@ impl World {
         self.entities.reserve(announced);
         B::prepare(&mut self.stores, announced, now);
         let before = B::entities(&self.stores).len();
-        let mut rows = B::Rows::default();
-        let mut spawned = Vec::with_capacity(CHUNK);
+        let mut open = OpenBatch::<B> {
+            stores: &mut self.stores,
+            spawned: Vec::with_capacity(CHUNK),
+            now,
+            bundles: PhantomData,
+        };
         for bundle in bundles {
-            bundle.split(&mut rows);
-            spawned.push(self.entities.spawn_with(B::BITS));
-            if spawned.len() == CHUNK {
-                B::extend(&mut rows, &mut self.stores, &spawned, now);
-                spawned.clear();
+            open.spawned.push(self.entities.spawn_with(B::BITS));
+            bundle.push(open.stores);
+            if open.spawned.len() == CHUNK {
+                open.assign();
             }
         }
-        B::extend(&mut rows, &mut self.stores, &spawned, now);
+        drop(open);
         &B::entities(&self.stores)[before..]
     }
 
@@ -187,6 +183,28 @@ impl World {
     }
 }
 
+/// Rows that were added and whose entities the maps do not know yet. They get to
+/// know them even if the iterator of the bundles panics.
+struct OpenBatch<'a, B: Bundle> {
+    stores: &'a mut Stores,
+    spawned: Vec<Entity>,
+    now: Tick,
+    bundles: PhantomData<B>,
+}
+
+impl<B: Bundle> OpenBatch<'_, B> {
+    fn assign(&mut self) {
+        B::assign(self.stores, &self.spawned, self.now);
+        self.spawned.clear();
+    }
+}
+
+impl<B: Bundle> Drop for OpenBatch<'_, B> {
+    fn drop(&mut self) {
+        self.assign();
+    }
+}
+
 /// The bit of entities that are in a tree.
 pub(crate) const FAMILY: u32 = 1 << Family::KIND as u32;
 
@@ -230,6 +248,25 @@ mod tests {
     use super::*;
     use crate::{Light, MeshRenderer, Transform, WorldBounds, WorldMatrix};
     use glam::Vec3;
+
+    #[test]
+    fn a_panic_between_bundles_leaves_a_sound_world() {
+        let mut world = World::new();
+        let spawning = std::panic::AssertUnwindSafe(|| {
+            world.spawn_batch((0..300).map(|i| {
+                assert!(i < 200, "on purpose");
+                (Transform::from_translation(Vec3::splat(i as f32)),)
+            }));
+        });
+        assert!(std::panic::catch_unwind(spawning).is_err());
+        let columns = world.columns::<Transform>();
+        assert_eq!((world.len(), columns.len()), (200, 200));
+        assert_eq!(columns.translation().len(), 200);
+        for entity in world.entities() {
+            let place: Transform = world.get(entity).unwrap();
+            assert_eq!(place.translation.x, entity.index() as f32);
+        }
+    }
 
     #[test]
     fn batches_do_what_single_calls_do() {

@@ -43,8 +43,6 @@ pub trait Arrays: Clone + Default + std::fmt::Debug + Send + Sync {
     fn push(&mut self, row: Self::Row);
     /// Adds a row at the end whose handles come from another world.
     fn push_mapped(&mut self, row: Self::Row, map: &EntityMap);
-    /// Adds rows at the end and leaves the vector empty.
-    fn extend(&mut self, rows: &mut Vec<Self::Row>);
     /// Adds copies of a row at the end.
     fn extend_with(&mut self, row: Self::Row, count: usize);
     /// Drops a row and moves the last one into its place.
@@ -296,18 +294,22 @@ impl<C: Component> Columns<C> {
         self.ticks.mark_all(self.now);
     }
 
-    /// Adds rows for entities that are known to have none. The vector is left
-    /// empty.
-    pub(crate) fn extend(&mut self, entities: &[Entity], rows: &mut Vec<C>) {
-        self.map.extend(entities);
-        self.ticks.extend(entities.len(), self.now);
-        self.arrays.extend(rows);
+    /// Adds a row whose entity [`Columns::assign`] will name.
+    #[inline]
+    pub(crate) fn push_fields(&mut self, value: C) {
+        self.arrays.push(value);
     }
 
-    /// Like [`Columns::extend`], with default rows.
-    pub(crate) fn extend_default(&mut self, entities: &[Entity]) {
+    /// Names the entities of the rows that were added last. They must have had
+    /// none before.
+    pub(crate) fn assign(&mut self, entities: &[Entity]) {
         self.map.extend(entities);
         self.ticks.extend(entities.len(), self.now);
+    }
+
+    /// Adds default rows for entities that are known to have none.
+    pub(crate) fn extend_default(&mut self, entities: &[Entity]) {
+        self.assign(entities);
         self.arrays.extend_with(C::default(), entities.len());
     }
 

@@ -110,12 +110,6 @@ macro_rules! component {
                     $($crate::value::FieldType::map_entities(&mut row.$field, map);)*
                     self.push(row);
                 }
-                fn extend(&mut self, rows: &mut Vec<$name>) {
-                    $(self.$field.extend(rows.iter_mut().map(|row| {
-                        $crate::value::FieldType::take(&mut row.$field)
-                    }));)*
-                    rows.clear();
-                }
                 fn extend_with(&mut self, row: $name, count: usize) {
                     $(self.$field.resize(self.$field.len() + count, row.$field);)*
                 }

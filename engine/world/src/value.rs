@@ -94,10 +94,6 @@ pub trait FieldType: Clone + Send + Sync + 'static {
     fn numbers(&self) -> ([f32; 4], usize) {
         ([0.0; 4], 0)
     }
-    /// Takes the field out of a row that is not needed any more.
-    fn take(&mut self) -> Self {
-        self.clone()
-    }
     /// Replaces handles to entities of one world by their copies in another.
     fn map_entities(&mut self, _map: &EntityMap) {}
     /// Bytes that the field holds outside its column.
@@ -255,9 +251,6 @@ impl FieldType for String {
             other => Err(mismatch("text", other)),
         }
     }
-    fn take(&mut self) -> Self {
-        std::mem::take(self)
-    }
     fn heap_bytes(&self) -> usize {
         self.capacity()
     }
@@ -337,9 +330,6 @@ impl<T: FieldType> FieldType for Vec<T> {
                 .collect(),
             other => Err(mismatch("a list", other)),
         }
-    }
-    fn take(&mut self) -> Self {
-        std::mem::take(self)
     }
     fn map_entities(&mut self, map: &EntityMap) {
         self.iter_mut().for_each(|item| item.map_entities(map));
