@@ -138,15 +138,20 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             panels::viewport::show(self.editor, ui, self.now);
             return UiResponse::None;
         }
-        let frame = egui::Frame::new().inner_margin(egui::Margin::same(8));
-        frame.show(ui, |ui| match panel {
+        let fill = ui.visuals().panel_fill;
+        ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
+        let inner = ui.max_rect().shrink(8.0);
+        let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(inner));
+        ui.set_clip_rect(inner.expand(2.0));
+        let ui = &mut ui;
+        match panel {
             Panel::Targets => panels::targets::show(self.editor, ui),
             Panel::Passes => panels::passes::show(self.editor, ui, self.now),
             Panel::Pipeline => panels::parameters::pipeline(self.editor, ui),
             Panel::Scene => panels::parameters::scene(self.editor, ui),
             Panel::Log => panels::log::show(self.editor, ui),
             Panel::Viewport => {}
-        });
+        }
         UiResponse::None
     }
 

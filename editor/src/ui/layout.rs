@@ -61,7 +61,7 @@ pub fn first() -> Tree<Panel> {
     let root = split(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(left, 0.68), (right, 0.32)],
+        &[(left, 0.62), (right, 0.38)],
     );
     Tree::new(egui::Id::unique("panels"), root, tiles)
 }

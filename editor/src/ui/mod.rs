@@ -7,6 +7,7 @@ pub mod actions;
 pub mod editor;
 pub mod layout;
 mod panels;
+pub mod reload_bench;
 mod screen;
 mod surface;
 pub mod theme;

@@ -1,6 +1,6 @@
 //! The log panel.
 
-use egui::{Align, Layout, RichText, ScrollArea, Ui};
+use egui::{Rect, RichText, ScrollArea, Ui, pos2};
 
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
@@ -10,38 +10,41 @@ use crate::ui::workbench::log::Level;
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let log = &mut editor.workbench.log;
     let mut clear = false;
-    ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-        ui.vertical(|ui| {
-            clear = ui.small_button("Clear").clicked();
-        });
-        ui.with_layout(Layout::top_down(Align::Min), |ui| {
-            let palette = Palette::of(ui);
-            let row = ui.text_style_height(&egui::TextStyle::Monospace) + 3.0;
-            ui.spacing_mut().item_spacing.y = 3.0;
-            let count = log.lines().len();
-            let area = ScrollArea::both().auto_shrink(false).stick_to_bottom(true);
-            area.show_rows(ui, row - 3.0, count, |ui, range| {
-                for line in log.lines().skip(range.start).take(range.len()) {
-                    ui.horizontal(|ui| {
-                        ui.label(RichText::new(format!("{:8.2}", line.at)).monospace().weak());
-                        let color = match line.level {
-                            Level::Info | Level::Script => ui.visuals().text_color(),
-                            Level::Warning => palette.warning,
-                            Level::Error => palette.error,
-                        };
-                        if let Some(place) = &line.place {
-                            let text = RichText::new(place.to_string()).monospace();
-                            ui.label(text.color(palette.accent));
-                        }
-                        ui.label(RichText::new(&line.text).color(color));
-                        if line.count > 1 {
-                            ui.label(RichText::new(format!("{} times", line.count)).weak());
-                        }
-                    });
+    let corner = ui.max_rect().right_top();
+    let button = Rect::from_min_max(
+        pos2(corner.x - 58.0, corner.y),
+        pos2(corner.x, corner.y + 20.0),
+    );
+    let palette = Palette::of(ui);
+    let row = ui.text_style_height(&egui::TextStyle::Body);
+    ui.spacing_mut().item_spacing.y = 3.0;
+    let count = log.lines().len();
+    let area = ScrollArea::both().auto_shrink(false).stick_to_bottom(true);
+    area.show_rows(ui, row, count, |ui, range| {
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+        for line in log.lines().skip(range.start).take(range.len()) {
+            ui.horizontal(|ui| {
+                ui.set_height(row);
+                ui.label(RichText::new(format!("{:8.2}", line.at)).monospace().weak());
+                let color = match line.level {
+                    Level::Info | Level::Script => ui.visuals().text_color(),
+                    Level::Warning => palette.warning,
+                    Level::Error => palette.error,
+                };
+                if let Some(place) = &line.place {
+                    let text = RichText::new(place.to_string()).monospace();
+                    ui.label(text.color(palette.accent));
+                }
+                ui.label(RichText::new(&line.text).color(color));
+                if line.count > 1 {
+                    ui.label(RichText::new(format!("{} times", line.count)).weak());
                 }
             });
-        });
+        }
     });
+    if count > 0 {
+        clear = ui.put(button, egui::Button::new("Clear").small()).clicked();
+    }
     if clear {
         log.clear();
     }

@@ -6,7 +6,7 @@ use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 use egui_extras::{Column, TableBuilder};
 use lightbench::render::PassStatistics;
 
-use super::widgets::{MISSING, bytes, count, ms, sparkline};
+use super::widgets::{MISSING, bytes, count, ms, short_count, sparkline};
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
 
@@ -84,7 +84,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     let slowest = slowest.fold(0.0_f64, f64::max);
     let height = 20.0;
     ScrollArea::horizontal().show(ui, |ui| {
-        let columns = [60.0, 66.0, 54.0, 44.0, 72.0, 72.0, 72.0, 72.0];
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let columns = [46.0, 52.0, 48.0, 38.0, 56.0, 58.0, 56.0, 56.0];
         let mut table = TableBuilder::new(ui).striped(true).column(
             Column::auto_with_initial_suggestion(96.0)
                 .at_least(80.0)
@@ -144,26 +145,34 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                     });
                     table_row.col(|ui| {
                         if let Some(times) = workbench.timings.passes.get(index) {
-                            sparkline(ui, vec2(58.0, 16.0), &times.gpu_ms, slowest, palette.gpu);
+                            sparkline(ui, vec2(44.0, 16.0), &times.gpu_ms, slowest, palette.gpu);
                         }
                     });
-                    let mut cell = |text: String, why: &str| {
+                    let mut cell = |text: String, about: &str| {
                         table_row.col(|ui| {
                             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                                 let missing = text == MISSING;
                                 let text = RichText::new(text).monospace();
                                 let response = ui.label(if missing { text.weak() } else { text });
-                                if missing {
-                                    response.on_hover_text(why);
+                                if !about.is_empty() {
+                                    response.on_hover_text(about);
                                 }
                             });
                         });
                     };
-                    cell(ms(row.gpu_ms), &no_time);
-                    cell(ms(row.cpu_ms), "Not recorded yet.");
-                    cell(row.cost.draws.to_string(), "");
-                    cell(count(row.cost.triangles), "");
-                    cell(row.fragments.map_or(MISSING.to_owned(), count), &no_count);
+                    let about = |missing: bool, why| if missing { why } else { "" };
+                    cell(ms(row.gpu_ms), about(row.gpu_ms.is_none(), &no_time));
+                    cell(
+                        ms(row.cpu_ms),
+                        about(row.cpu_ms.is_none(), "Not recorded yet."),
+                    );
+                    cell(short_count(row.cost.draws.into()), "");
+                    let triangles = row.cost.triangles;
+                    cell(short_count(triangles), &count(triangles));
+                    match row.fragments {
+                        Some(fragments) => cell(short_count(fragments), &count(fragments)),
+                        None => cell(MISSING.to_owned(), &no_count),
+                    }
                     cell(bytes(row.cost.traffic.read), "");
                     cell(bytes(row.cost.traffic.written), "");
                 });

@@ -1,10 +1,10 @@
 //! Any target as it is after any pass.
 
-use egui::{Color32, ComboBox, DragValue, Rect, RichText, Sense, TextureOptions, Ui, pos2};
+use egui::{Color32, DragValue, Rect, RichText, Sense, TextureOptions, Ui, pos2};
 use lightbench::render::PipelineDesc;
 use lightbench::render::inspect::{Channels, ColorMap, Inspection};
 
-use super::widgets::bytes;
+use super::widgets::{bytes, combo};
 use crate::ui::editor::Editor;
 use crate::ui::screen::Place;
 use crate::ui::workbench::Workbench;
@@ -65,10 +65,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 
 /// The distance at which depth is shown brightest.
 fn far_of(workbench: &Workbench) -> f32 {
-    let radius = workbench
-        .scene_bounds()
-        .map(|(min, max)| (max - min).length());
-    radius.unwrap_or(10.0).clamp(0.1, 1e6)
+    let distance = workbench.typical_distance().unwrap_or(5.0);
+    (distance * 3.0).clamp(0.1, 1e6)
 }
 
 /// Which target, after which pass.
@@ -91,22 +89,20 @@ fn choose(
         .filter(|name| desc.target(name).is_some());
     let (mut new_pass, mut new_target) = (pass, target.clone());
     ui.horizontal_wrapped(|ui| {
-        ComboBox::from_label("Target")
-            .selected_text(target.as_deref().unwrap_or("none"))
-            .show_ui(ui, |ui| {
-                ui.selectable_value(&mut new_target, None, "none");
-                for entry in &desc.targets {
-                    ui.selectable_value(&mut new_target, Some(entry.name.clone()), &entry.name)
-                        .on_hover_text(entry.format.name());
-                }
-            });
-        ComboBox::from_label("After pass")
-            .selected_text(desc.passes.get(pass).map_or("", |pass| pass.name.as_str()))
-            .show_ui(ui, |ui| {
-                for (index, entry) in desc.passes.iter().enumerate() {
-                    ui.selectable_value(&mut new_pass, index, &entry.name);
-                }
-            });
+        let shown = target.as_deref().unwrap_or("none");
+        combo(ui, "Target", shown, 110.0, |ui| {
+            ui.selectable_value(&mut new_target, None, "none");
+            for entry in &desc.targets {
+                ui.selectable_value(&mut new_target, Some(entry.name.clone()), &entry.name)
+                    .on_hover_text(entry.format.name());
+            }
+        });
+        let shown = desc.passes.get(pass).map_or("", |pass| pass.name.as_str());
+        combo(ui, "After pass", shown, 110.0, |ui| {
+            for (index, entry) in desc.passes.iter().enumerate() {
+                ui.selectable_value(&mut new_pass, index, &entry.name);
+            }
+        });
     });
     let same = new_pass == pass && new_target == target;
     if same && request.is_some() == target.is_some() {
@@ -141,24 +137,25 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
             let selected = CHANNELS
                 .iter()
                 .find(|(value, _)| *value == request.channels);
-            ComboBox::from_label("Channels")
-                .width(80.0)
-                .selected_text(selected.map_or("", |(_, name)| *name))
-                .show_ui(ui, |ui| {
-                    for (value, name) in CHANNELS.iter().take(channels + 1) {
-                        ui.selectable_value(&mut request.channels, *value, *name);
-                    }
-                });
+            let selected = selected.map_or("", |(_, name)| *name);
+            combo(ui, "Channels", selected, 76.0, |ui| {
+                for (value, name) in CHANNELS.iter().take(channels + 1) {
+                    ui.selectable_value(&mut request.channels, *value, *name);
+                }
+            });
         }
         let selected = MAPS.iter().find(|(value, _)| *value == request.map);
-        ComboBox::from_label("Map")
-            .width(90.0)
-            .selected_text(selected.map_or("", |(_, name)| *name))
-            .show_ui(ui, |ui| {
+        combo(
+            ui,
+            "Map",
+            selected.map_or("", |(_, name)| *name),
+            90.0,
+            |ui| {
                 for (value, name) in MAPS {
                     ui.selectable_value(&mut request.map, value, name);
                 }
-            });
+            },
+        );
         let label = ui.label(if depth { "Range, m" } else { "Range" });
         let speed = f64::from((request.high - request.low).abs().max(1e-3)) * 0.01;
         let low = DragValue::new(&mut request.low)

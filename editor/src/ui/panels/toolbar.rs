@@ -1,7 +1,8 @@
 //! Scene, pipeline and time at a glance.
 
-use egui::{Align, Button, ComboBox, DragValue, Layout, RichText, Ui};
+use egui::{Align, Button, DragValue, Layout, RichText, Ui};
 
+use super::widgets;
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
@@ -30,20 +31,17 @@ fn scene(editor: &mut Editor, ui: &mut Ui) {
         entry.map_or_else(|| name.to_owned(), |entry| entry.title.clone())
     };
     let mut wanted = None;
-    ComboBox::from_label("Scene")
-        .selected_text(title(&selected))
-        .width(150.0)
-        .show_ui(ui, |ui| {
-            for entry in entries {
-                let response = ui.selectable_label(entry.name == selected, &entry.title);
-                if response.clicked() {
-                    wanted = Some(entry.name.clone());
-                }
-                if !entry.description.is_empty() {
-                    response.on_hover_text(&entry.description);
-                }
+    widgets::combo(ui, "Scene", &title(&selected), 150.0, |ui| {
+        for entry in entries {
+            let response = ui.selectable_label(entry.name == selected, &entry.title);
+            if response.clicked() {
+                wanted = Some(entry.name.clone());
             }
-        });
+            if !entry.description.is_empty() {
+                response.on_hover_text(&entry.description);
+            }
+        }
+    });
     if let Some(name) = wanted {
         workbench.select_scene(&name);
     }
@@ -53,35 +51,31 @@ fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let selected = workbench.pipelines.selected().to_owned();
     let mut wanted = None;
-    let response = ComboBox::from_label("Pipeline")
-        .selected_text(workbench.library.pipeline_title(&selected).to_owned())
-        .width(210.0)
-        .show_ui(ui, |ui| {
-            for (index, entry) in workbench.library.pipelines.iter().enumerate() {
-                let mut text = RichText::new(&entry.title);
-                if entry.problem.is_some() {
-                    text = text.color(Palette::of(ui).error);
-                }
-                let mut button = Button::selectable(entry.name == selected, text);
-                if index < 9 {
-                    button = button.shortcut_text((index + 1).to_string());
-                }
-                let response = ui.add(button);
-                if response.clicked() {
-                    wanted = Some(entry.name.clone());
-                }
-                let about = match &entry.problem {
-                    Some(problem) => problem.to_string(),
-                    None => entry.description.clone(),
-                };
-                if !about.is_empty() {
-                    response.on_hover_text(about);
-                }
+    let title = workbench.library.pipeline_title(&selected);
+    let response = widgets::combo(ui, "Pipeline", title, 210.0, |ui| {
+        for (index, entry) in workbench.library.pipelines.iter().enumerate() {
+            let mut text = RichText::new(&entry.title);
+            if entry.problem.is_some() {
+                text = text.color(Palette::of(ui).error);
             }
-        });
-    response
-        .response
-        .on_hover_text("Keys 1 to 9, [ and ]. Scene, camera and time stay.");
+            let mut button = Button::selectable(entry.name == selected, text);
+            if index < 9 {
+                button = button.shortcut_text((index + 1).to_string());
+            }
+            let response = ui.add(button);
+            if response.clicked() {
+                wanted = Some(entry.name.clone());
+            }
+            let about = match &entry.problem {
+                Some(problem) => problem.to_string(),
+                None => entry.description.clone(),
+            };
+            if !about.is_empty() {
+                response.on_hover_text(about);
+            }
+        }
+    });
+    response.on_hover_text("Keys 1 to 9, [ and ]. Scene, camera and time stay.");
     if workbench.pipelines.is_busy() {
         ui.spinner();
     }

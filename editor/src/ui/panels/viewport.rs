@@ -162,10 +162,12 @@ fn loading(editor: &Editor, ui: &mut Ui, rect: Rect, has_picture: bool) {
             "" => format!("Loading {}", state.name),
             label => format!("Loading {}: {label}", state.name),
         };
-        let place = Rect::from_center_size(
-            rect.center_bottom() - vec2(0.0, 44.0),
-            vec2(rect.width().min(360.0), 20.0),
-        );
+        let center = if has_picture {
+            rect.center_top() + vec2(0.0, 26.0)
+        } else {
+            rect.center()
+        };
+        let place = Rect::from_center_size(center, vec2(rect.width().min(360.0), 20.0));
         let bar = egui::ProgressBar::new(state.fraction).text(text);
         ui.put(place, bar);
     } else if !has_picture && workbench.pipelines.is_busy() {
@@ -211,6 +213,7 @@ fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
                 .corner_radius(CornerRadius::same(4))
                 .inner_margin(Margin::symmetric(12, 9))
                 .show(ui, |ui| {
+                    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
                     for line in lines {
                         ui.label(RichText::new(line).color(palette.note_text));
                     }

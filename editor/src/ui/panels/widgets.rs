@@ -1,11 +1,26 @@
 //! Small pieces that several panels use.
 
-use egui::{Color32, Sense, Stroke, Ui, pos2};
+use egui::{Color32, ComboBox, Response, Sense, Stroke, Ui, pos2};
 
 use crate::ui::workbench::timing::{Series, WINDOW};
 
 /// What stands where a number is missing.
 pub const MISSING: &str = "-";
+
+/// A combo box behind its label.
+pub fn combo(
+    ui: &mut Ui,
+    label: &str,
+    selected: &str,
+    width: f32,
+    entries: impl FnOnce(&mut Ui),
+) -> Response {
+    let name = ui.label(label);
+    let combo = ComboBox::from_id_salt(label)
+        .selected_text(selected)
+        .width(width);
+    combo.show_ui(ui, entries).response.labelled_by(name.id)
+}
 
 /// A count with thin groups of three digits.
 pub fn count(value: u64) -> String {
@@ -18,6 +33,24 @@ pub fn count(value: u64) -> String {
         grouped.push(digit);
     }
     grouped
+}
+
+/// A count to three digits, as in "286 k" and "5.70 M".
+pub fn short_count(value: u64) -> String {
+    if value < 10_000 {
+        return count(value);
+    }
+    let (scaled, unit) = match value as f64 {
+        v if v >= 1e9 => (v / 1e9, "G"),
+        v if v >= 1e6 => (v / 1e6, "M"),
+        v => (v / 1e3, "k"),
+    };
+    let decimals = match scaled {
+        s if s < 9.995 => 2,
+        s if s < 99.95 => 1,
+        _ => 0,
+    };
+    format!("{scaled:.decimals$} {unit}")
 }
 
 /// Bytes in a unit that fits, to three digits.
@@ -82,6 +115,9 @@ mod tests {
         assert_eq!(bytes(99_960_000), "100 MB");
         assert_eq!(count(1_234_567), "1 234 567");
         assert_eq!(count(12), "12");
+        assert_eq!(short_count(9_999), "9 999");
+        assert_eq!(short_count(286_056), "286 k");
+        assert_eq!(short_count(5_701_424), "5.70 M");
         assert_eq!(words("light_volumes"), "Light volumes");
         assert_eq!(words(""), "");
         assert_eq!(ms(None), MISSING);

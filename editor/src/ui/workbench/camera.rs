@@ -138,11 +138,12 @@ impl CameraRig {
         self.moved = true;
     }
 
-    /// Chooses a flying speed and an orbit for a scene of that size, metres.
-    pub fn suit(&mut self, radius: f32) {
-        if radius.is_finite() && radius > 0.0 {
-            self.speed = (radius * 0.35).clamp(0.01, 1e4);
-            self.distance = (radius * 0.5).clamp(0.05, 1e5);
+    /// Chooses a flying speed and an orbit for a scene whose objects are about that far away,
+    /// metres.
+    pub fn suit(&mut self, distance: f32) {
+        if distance.is_finite() && distance > 0.0 {
+            self.speed = (distance * 0.3).clamp(0.01, 1e4);
+            self.distance = (distance * 0.7).clamp(0.05, 1e5);
         }
     }
 

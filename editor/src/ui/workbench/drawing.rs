@@ -93,6 +93,11 @@ impl Workbench {
         self.picture()
     }
 
+    /// Whether a scene and a pipeline are there to draw.
+    pub fn picture_ready(&self) -> bool {
+        self.scenes.shown().is_some() && self.pipelines.shown().is_some()
+    }
+
     /// The picture as it was last drawn.
     pub fn picture(&mut self) -> Option<Picture> {
         let scale = self.canvas.drawn?.scale;
@@ -110,7 +115,7 @@ impl Workbench {
     pub fn next_due(&self, now: Instant) -> Option<Duration> {
         const PROGRESS: Duration = Duration::from_millis(80);
         const RESULTS: Duration = Duration::from_millis(20);
-        let ready = self.scenes.shown().is_some() && self.pipelines.shown().is_some();
+        let ready = self.picture_ready();
         let soon = [
             (ready && self.clock.playing).then_some(Duration::ZERO),
             (ready && self.canvas.stale && self.canvas.problem.is_none()).then_some(Duration::ZERO),

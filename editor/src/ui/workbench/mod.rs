@@ -9,6 +9,7 @@ pub mod camera;
 pub mod clock;
 pub mod compiling;
 mod drawing;
+mod extent;
 pub mod fields;
 pub mod library;
 pub mod log;
@@ -26,8 +27,7 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
-use lightbench::world::glam::Vec3;
-use lightbench::world::{WorldBounds, systems};
+use lightbench::world::systems;
 
 use self::camera::CameraRig;
 use self::clock::Clock;
@@ -202,27 +202,6 @@ impl Workbench {
         self.renderer.inspector().picture().cloned()
     }
 
-    /// Shows the whole scene from the present direction.
-    pub fn frame_scene(&mut self) {
-        if let Some((min, max)) = self.scene_bounds() {
-            self.camera.frame(min, max);
-        }
-    }
-
-    /// A box around everything that is drawn.
-    pub fn scene_bounds(&self) -> Option<(Vec3, Vec3)> {
-        let bounds = self.scenes.scene()?.world.columns::<WorldBounds>();
-        let b = bounds.slices();
-        let boxes = (0..b.x.len()).map(|row| {
-            let center = Vec3::new(b.x[row], b.y[row], b.z[row]);
-            let half = Vec3::new(b.half_x[row], b.half_y[row], b.half_z[row]);
-            (center - half, center + half)
-        });
-        boxes
-            .filter(|(min, max)| min.is_finite() && max.is_finite())
-            .reduce(|(a, b), (min, max)| (a.min(min), b.max(max)))
-    }
-
     /// Reads and builds everything again.
     pub fn reload(&mut self) {
         let all = self.files.list("shaders", "wgsl").unwrap_or_default();
@@ -317,6 +296,7 @@ impl Workbench {
             return;
         };
         systems::update_world_matrices(&mut scene.world);
+        systems::update_bounds(&mut scene.world, scene.assets.mesh_bounds());
         let animated = scene.has_update();
         if again {
             self.clock.refresh();
@@ -324,6 +304,10 @@ impl Workbench {
             self.clock.rewind();
             self.clock.playing = animated;
             self.camera.reset();
+            self.follow_camera();
+            if let Some(distance) = self.typical_distance() {
+                self.camera.suit(distance);
+            }
         }
         self.canvas.invalidate();
     }

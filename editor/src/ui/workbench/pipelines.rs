@@ -52,6 +52,7 @@ pub struct Pipelines {
     shown: Option<String>,
     worker: CompileWorker,
     ticket: u64,
+    builds: u64,
 }
 
 impl Pipelines {
@@ -63,6 +64,7 @@ impl Pipelines {
             shown: None,
             worker: CompileWorker::start(compiler, files, wake),
             ticket: 0,
+            builds: 0,
         }
     }
 
@@ -111,6 +113,11 @@ impl Pipelines {
         self.slots
             .get(&self.selected)
             .is_some_and(|slot| slot.pending.is_some())
+    }
+
+    /// How many pipelines were compiled since the start.
+    pub fn builds(&self) -> u64 {
+        self.builds
     }
 
     /// Swaps to another pipeline: at once if it was visited, else as soon as it is built.
@@ -204,6 +211,7 @@ impl Pipelines {
             Ok(Built::Pipeline(pipeline)) => {
                 slot.pipeline = Some(*pipeline);
                 slot.problems = None;
+                self.builds += 1;
                 news.push(News::Compiled(answer.name.clone(), answer.took));
             }
             Ok(Built::Values(desc)) => {

@@ -1,0 +1,407 @@
+//! The editor driven through its real widgets, on a real device, without a window.
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::accesskit::Role;
+use egui::mutex::RwLock;
+use egui::{Key, pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use egui_kittest::wgpu::WgpuTestRenderer;
+use lightbench::assets::files::Files;
+use lightbench::render::readback::read_bytes;
+use lightbench::render::{Gpu, GpuOptions};
+use lightbench_editor::ui::workbench::Workbench;
+use lightbench_editor::ui::{Editor, EditorOptions, theme};
+use tempfile::TempDir;
+
+const PATIENCE: Duration = Duration::from_secs(120);
+const FORWARD: &str = "Forward, single pass";
+const OUTPUT_SHADER: &str = "shaders/output.wgsl";
+
+/// The editor on a project of its own.
+struct Bench {
+    files: Files,
+    harness: Harness<'static, Editor>,
+    // Last, so that the watcher ends before the folder does.
+    _project: TempDir,
+}
+
+impl Bench {
+    /// Opens the Cornell box through deferred shading and waits for the first picture.
+    fn open() -> Self {
+        let project = tempfile::tempdir().unwrap();
+        let files = Files::with_project(project.path()).unwrap();
+        let gpu = Gpu::open(&GpuOptions::default()).unwrap();
+        let format = wgpu::TextureFormat::Rgba8Unorm;
+        let settings = egui_wgpu::RendererOptions::PREDICTABLE;
+        let painter = egui_wgpu::Renderer::new(&gpu.device, format, settings);
+        let painter = Arc::new(RwLock::new(painter));
+        let state = egui_wgpu::RenderState {
+            adapter: gpu.adapter.clone(),
+            available_adapters: Vec::new(),
+            instance: wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle()),
+            device: gpu.device.clone(),
+            queue: gpu.queue.clone(),
+            target_format: format,
+            renderer: Arc::clone(&painter),
+        };
+        let renderer = WgpuTestRenderer::from_render_state(state);
+        let options = EditorOptions {
+            scene: "cornell_box".to_owned(),
+            ..EditorOptions::new(files.clone())
+        };
+        let mut workbench = Workbench::new(gpu, options, Arc::new(|| {}));
+        workbench.resolution.adaptive = false;
+        let editor = Editor::new(workbench, painter);
+        let harness = Harness::builder()
+            .with_size(egui::vec2(1100.0, 760.0))
+            .renderer(renderer)
+            .build_ui_state(
+                |ui, editor: &mut Editor| {
+                    theme::apply(ui.ctx());
+                    editor.ui(ui);
+                },
+                editor,
+            );
+        let mut bench = Self {
+            files,
+            harness,
+            _project: project,
+        };
+        bench.until("the first picture", |editor| {
+            editor.workbench.drawn_size().is_some() && !editor.workbench.library.is_busy()
+        });
+        bench.harness.run_steps(2);
+        bench
+    }
+
+    /// Runs frames until something is true.
+    fn until(&mut self, what: &str, done: impl Fn(&mut Editor) -> bool) {
+        let began = Instant::now();
+        loop {
+            self.harness.step();
+            if done(self.harness.state_mut()) {
+                return;
+            }
+            assert!(began.elapsed() < PATIENCE, "waited in vain for {what}");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// The bytes of the viewport's picture.
+    fn picture(&mut self) -> Vec<u8> {
+        self.harness.step();
+        let workbench = &mut self.harness.state_mut().workbench;
+        let picture = workbench.picture().unwrap();
+        read_bytes(workbench.gpu(), &picture.texture).unwrap()
+    }
+
+    /// Runs frames until the picture is another one.
+    fn until_picture_is_not(&mut self, before: &[u8]) -> Vec<u8> {
+        let began = Instant::now();
+        loop {
+            let now = self.picture();
+            if now != before {
+                return now;
+            }
+            assert!(began.elapsed() < PATIENCE, "the picture stayed the same");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Opens a combo box and picks an entry.
+    fn choose(&mut self, combo: &str, entry: &str) {
+        self.harness
+            .get_by_role_and_label(Role::ComboBox, combo)
+            .click();
+        self.harness.run_steps(3);
+        let is_entry = |node: &egui::accesskit::Role, label: Option<String>| {
+            *node == Role::Button && label.is_some_and(|label| label.starts_with(entry))
+        };
+        self.harness
+            .get_by(|node| is_entry(&node.role(), node.label()))
+            .click();
+        self.harness.run_steps(2);
+    }
+
+    /// Presses and releases the mouse.
+    fn click_at(&mut self, at: egui::Pos2) {
+        self.harness.hover_at(at);
+        self.harness.step();
+        self.harness.drag_at(at);
+        self.harness.step();
+        self.harness.drop_at(at);
+        self.harness.step();
+    }
+
+    /// Whether the message over the picture is there.
+    fn has_message(&self) -> bool {
+        self.harness
+            .query_by_label_contains("The last good picture stays")
+            .is_some()
+    }
+
+    /// How often a text is on the screen: an error's place is over the picture and in the log.
+    fn count(&self, text: &str) -> usize {
+        self.harness.query_all_by_label_contains(text).count()
+    }
+
+    fn shown(&self) -> String {
+        let pipelines = &self.harness.state().workbench.pipelines;
+        pipelines.shown().unwrap_or_default().to_owned()
+    }
+
+    /// A shipped file as a file of the project.
+    fn own(&self, path: &str) -> (PathBuf, String) {
+        let text = self.files.read_text(path).unwrap();
+        (self.files.copy_to_project(path).unwrap(), text)
+    }
+
+    fn has_problems(editor: &Editor) -> bool {
+        editor.workbench.problems().next().is_some()
+    }
+}
+
+#[test]
+fn choosing_a_pipeline_swaps_it_and_keeps_scene_camera_and_time() {
+    let mut bench = Bench::open();
+    let workbench = &mut bench.harness.state_mut().workbench;
+    workbench.clock.step();
+    workbench
+        .camera
+        .orbit(lightbench::world::glam::Vec2::new(0.3, 0.1));
+    let deferred = bench.picture();
+    let (view, time) = {
+        let workbench = &bench.harness.state().workbench;
+        (workbench.camera.view(), workbench.clock.time())
+    };
+
+    bench.choose("Pipeline", FORWARD);
+    bench.until("the other pipeline", |editor| {
+        editor.workbench.pipelines.shown() == Some("forward_single_pass")
+    });
+    let forward = bench.picture();
+    assert_eq!(forward.len(), deferred.len());
+    // The same light by another way: not the same bits, but the same picture.
+    assert_ne!(forward, deferred, "another pipeline drew the same bits");
+    let difference: u64 = forward
+        .iter()
+        .zip(&deferred)
+        .map(|(a, b)| u64::from(a.abs_diff(*b)))
+        .sum();
+    assert!((difference as f64) < 2.0 * forward.len() as f64);
+    let workbench = &bench.harness.state().workbench;
+    assert_eq!(workbench.camera.view(), view);
+    assert_eq!(workbench.clock.time(), time);
+    assert_eq!(workbench.scenes.shown(), Some("cornell_box"));
+
+    // Back by its key: at once, and without compiling.
+    let builds = workbench.pipelines.builds();
+    bench.harness.key_press(Key::Num1);
+    bench.harness.step();
+    assert_eq!(bench.shown(), "deferred_shading");
+    assert_eq!(bench.picture(), deferred);
+    assert_eq!(bench.harness.state().workbench.pipelines.builds(), builds);
+    bench.harness.key_press(Key::CloseBracket);
+    bench.harness.step();
+    assert_eq!(bench.shown(), "forward_single_pass");
+}
+
+#[test]
+fn a_saved_shader_changes_the_picture_and_a_broken_one_does_not() {
+    let mut bench = Bench::open();
+    let (path, good) = bench.own(OUTPUT_SHADER);
+    let first = bench.picture();
+
+    let darker = good.replace(
+        "exp2(parameters.exposure)",
+        "exp2(parameters.exposure - 1.0)",
+    );
+    assert_ne!(darker, good);
+    std::fs::write(&path, &darker).unwrap();
+    let dark = bench.until_picture_is_not(&first);
+    let sum = |bytes: &[u8]| bytes.iter().map(|b| u64::from(*b)).sum::<u64>();
+    assert!(sum(&dark) < sum(&first));
+
+    // A type error: the last good picture stays, and the message names file and line.
+    let broken = darker.replace("let exposed =", "let exposed: u32 =");
+    let line = broken.lines().position(|l| l.contains(": u32 =")).unwrap() + 1;
+    std::fs::write(&path, &broken).unwrap();
+    bench.until("the mistake", |editor| Bench::has_problems(editor));
+    assert_eq!(bench.picture(), dark);
+    let place = format!("{OUTPUT_SHADER}:{line}");
+    assert!(bench.has_message());
+    assert!(bench.count(&place) >= 2, "no {place} over the picture");
+
+    // A file caught half-way through a save.
+    std::fs::write(&path, "").unwrap();
+    bench.until("the empty file", |editor| {
+        editor
+            .workbench
+            .problems()
+            .any(|problem| problem.message.contains("empty"))
+    });
+    assert_eq!(bench.picture(), dark);
+    std::fs::write(&path, &good[..good.len() / 2]).unwrap();
+    bench.until("the half file", |editor| {
+        editor
+            .workbench
+            .problems()
+            .any(|problem| !problem.message.contains("empty"))
+    });
+    assert_eq!(bench.picture(), dark);
+
+    std::fs::write(&path, &good).unwrap();
+    bench.until("the mended file", |editor| !Bench::has_problems(editor));
+    assert_eq!(bench.picture(), first);
+    bench.harness.step();
+    assert!(!bench.has_message());
+}
+
+#[test]
+fn a_saved_pipeline_script_changes_the_picture() {
+    let mut bench = Bench::open();
+    let (path, good) = bench.own("scripts/pipelines/parts/output.rhai");
+    let first = bench.picture();
+    let brighter = good.replace("p.number(\"exposure\", 0.0", "p.number(\"exposure\", 2.0");
+    assert_ne!(brighter, good);
+    std::fs::write(&path, brighter).unwrap();
+    let bright = bench.until_picture_is_not(&first);
+
+    std::fs::write(&path, good.replace("fn add(", "fn add((")).unwrap();
+    bench.until("the mistake", |editor| Bench::has_problems(editor));
+    assert_eq!(bench.picture(), bright);
+    assert!(bench.has_message());
+    assert!(bench.count("parts/output.rhai:") >= 2);
+
+    std::fs::write(&path, good).unwrap();
+    bench.until("the mended file", |editor| !Bench::has_problems(editor));
+    assert_eq!(bench.until_picture_is_not(&bright), first);
+}
+
+#[test]
+fn a_parameter_widget_changes_the_picture_without_compiling() {
+    let mut bench = Bench::open();
+    let first = bench.picture();
+    let builds = bench.harness.state().workbench.pipelines.builds();
+    let rail = bench
+        .harness
+        .get_by_role_and_label(Role::Slider, "Exposure")
+        .rect();
+    bench.click_at(pos2(rail.left() + 0.65 * rail.width(), rail.center().y));
+    let bright = bench.until_picture_is_not(&first);
+    assert!(
+        bright
+            .iter()
+            .zip(&first)
+            .all(|(after, before)| after >= before)
+    );
+    assert_eq!(bench.harness.state().workbench.pipelines.builds(), builds);
+    bench
+        .harness
+        .get_by_role_and_label(Role::Button, "Reset")
+        .click();
+    assert_eq!(bench.until_picture_is_not(&bright), first);
+}
+
+#[test]
+fn the_mouse_and_keys_move_the_camera_and_time() {
+    let mut bench = Bench::open();
+    let first = bench.picture();
+    let home = bench.harness.state().workbench.camera.view();
+    let viewport = bench.harness.get_by_role_and_label(Role::Image, "Viewport");
+    let at = viewport.rect().center();
+    bench.harness.drag_at(at);
+    bench.harness.step();
+    for step in 1..6 {
+        bench
+            .harness
+            .hover_at(pos2(at.x + 12.0 * step as f32, at.y));
+        bench.harness.step();
+    }
+    bench.harness.drop_at(pos2(at.x + 60.0, at.y));
+    bench.harness.run_steps(2);
+    let moved = bench.picture();
+    assert_ne!(moved, first);
+    assert!(bench.harness.state().workbench.camera.is_moved());
+    bench.harness.key_press(Key::Home);
+    bench.harness.run_steps(2);
+    assert_eq!(bench.harness.state().workbench.camera.view(), home);
+    assert_eq!(bench.picture(), first);
+
+    bench.harness.key_press(Key::Period);
+    bench.harness.run_steps(2);
+    let time = bench.harness.state().workbench.clock.time();
+    assert!((time - 1.0 / 60.0).abs() < 1e-9);
+    bench
+        .harness
+        .get_by_role_and_label(Role::Button, "Play")
+        .click();
+    bench.harness.run_steps(3);
+    assert!(bench.harness.state().workbench.clock.time() > time);
+    bench.harness.key_press(Key::Space);
+    bench.harness.run_steps(2);
+    assert!(!bench.harness.state().workbench.clock.playing);
+}
+
+#[test]
+fn any_target_can_be_looked_at_after_any_pass() {
+    let mut bench = Bench::open();
+    bench.choose("Target", "hdr");
+    bench.until("the target", |editor| {
+        editor.workbench.inspected().is_some()
+    });
+    let look = |bench: &mut Bench| {
+        bench.harness.run_steps(3);
+        let workbench = &mut bench.harness.state_mut().workbench;
+        let texture = workbench.inspected().unwrap();
+        read_bytes(workbench.gpu(), &texture).unwrap()
+    };
+    let lit = look(&mut bench);
+    assert!(lit.chunks(4).any(|texel| texel[0] > 40));
+
+    // Before the lights there is only what shines by itself.
+    bench.choose("After pass", "g_buffer");
+    let emitted = look(&mut bench);
+    let sum = |bytes: &[u8]| bytes.iter().map(|b| u64::from(*b)).sum::<u64>();
+    assert!(sum(&emitted) < sum(&lit));
+
+    bench.choose("Target", "depth");
+    let depth = look(&mut bench);
+    let colors: std::collections::BTreeSet<&[u8]> = depth.chunks(4).collect();
+    assert!(colors.len() > 20, "depth shows {} colours", colors.len());
+    bench.choose("Target", "g_normal");
+    assert_ne!(look(&mut bench), depth);
+}
+
+#[test]
+fn another_device_takes_over_with_scene_camera_and_time() {
+    let mut bench = Bench::open();
+    let workbench = &mut bench.harness.state_mut().workbench;
+    workbench
+        .camera
+        .look(lightbench::world::glam::Vec2::new(0.1, 0.0));
+    workbench.clock.step();
+    let size = (160, 90);
+    workbench.tick(Instant::now());
+    let before = workbench.draw(size, Instant::now()).unwrap();
+    let before = read_bytes(workbench.gpu(), &before.texture).unwrap();
+    let time = workbench.clock.time();
+
+    let gpu = Gpu::open(&GpuOptions::default()).unwrap();
+    workbench.move_to(gpu);
+    workbench.resolution.adaptive = false;
+    let began = Instant::now();
+    while workbench.pipelines.shown().is_none() {
+        workbench.tick(Instant::now());
+        assert!(began.elapsed() < PATIENCE);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let after = workbench.draw(size, Instant::now()).unwrap();
+    assert_eq!(read_bytes(workbench.gpu(), &after.texture).unwrap(), before);
+    assert_eq!(workbench.clock.time(), time);
+}
