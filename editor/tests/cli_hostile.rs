@@ -57,9 +57,9 @@ fn models_that_hold_nothing_are_refused_in_one_line() {
         ("binary.obj", &["binary.obj"]),
         ("folder.obj", &["folder.obj", "folder"]),
         ("none.obj", &["none.obj"]),
-        ("index.obj", &["index.obj:4"]),
-        ("nan.obj", &["nan.obj:1"]),
-        ("pair.obj", &["pair.obj:4"]),
+        ("index.obj", &["index.obj, line 4"]),
+        ("nan.obj", &["nan.obj, line 1"]),
+        ("pair.obj", &["pair.obj", "no faces"]),
     ] {
         let outcome = show(model).failed(1, parts);
         assert!(outcome.stderr.lines().count() <= 6, "{}", outcome.all());
@@ -72,6 +72,11 @@ fn models_with_a_broken_part_are_drawn_with_one_warning() {
     let project = Project::new();
     let quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
     let faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    project.write("pair.obj", format!("{TRIANGLE}f 1 2\nf 1 2 3\n"));
+    let outcome = project.render("showroom", "pair.png", &["--model", "pair.obj"]);
+    assert_eq!(outcome.status, 0, "{}", outcome.all());
+    let warning = outcome.stderr.lines().find(|line| line.contains("pair.obj, line 4"));
+    assert!(warning.is_some(), "{}", outcome.all());
     for (name, picture) in [
         ("zero", Vec::new()),
         ("cut", png(64, 64)[..60].to_vec()),

@@ -196,6 +196,7 @@ fn every_command_explains_itself_with_examples() {
         "copy",
         "check-pipeline",
         "doctor",
+        "bench",
     ] {
         assert!(top.contains(&format!("\n  {command} ")), "{top}");
         let help = project.run(&["help", command]).succeeded().stdout;
@@ -210,6 +211,17 @@ fn every_command_explains_itself_with_examples() {
         version.trim(),
         format!("lightbench {}", env!("CARGO_PKG_VERSION"))
     );
+}
+
+#[test]
+fn the_layouts_are_measured() {
+    let project = Project::new();
+    let bench = ["bench", "world", "--objects", "5000"];
+    let report = project.run(&bench).succeeded().stdout;
+    for part in ["5000 objects", "columns", "array of structures", "boxed objects", "ns/object"] {
+        assert!(report.contains(part), "no `{part}` in {report}");
+    }
+    project.run(&["bench", "world", "--objects", "0"]).failed(2, &["--objects"]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The command line: one module a command, over the same calls as the editor.
 
 mod arguments;
+mod bench;
 mod check_pipeline;
 mod compare;
 mod diff;
@@ -70,10 +71,13 @@ enum Command {
     CheckPipeline(check_pipeline::Arguments),
     /// Says what is here, what is missing, and how to mend it
     Doctor,
+    /// Measures the program itself
+    Bench(bench::Arguments),
 }
 
-/// Runs the program with the arguments of the process.
+/// Runs the program with the arguments of the process. Call it before any thread is started.
 pub fn main() -> ExitCode {
+    hush_device_selection();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -84,6 +88,19 @@ pub fn main() -> ExitCode {
     };
     faults::start_log();
     faults::catch(|| report::finish(run(arguments)))
+}
+
+/// Mesa's layer that chooses a Vulkan device asks Wayland for the desktop's. Where there is no
+/// Wayland session, that ends in a line "error: XDG_RUNTIME_DIR is invalid" for every command, so
+/// the layer is turned off there, as its manifest offers.
+fn hush_device_selection() {
+    if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: nothing else reads or writes the environment yet: `main` has started no thread.
+        #[allow(unsafe_code)]
+        unsafe {
+            std::env::set_var("NODEVICE_SELECT", "1");
+        }
+    }
 }
 
 fn run(arguments: Arguments) -> anyhow::Result<()> {
@@ -99,6 +116,7 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Copy(arguments) => new::copy(&arguments, &files()?),
         Command::CheckPipeline(arguments) => check_pipeline::run(&arguments, files()?),
         Command::Doctor => doctor::run(&files()?),
+        Command::Bench(arguments) => bench::run(&arguments),
     }
 }
 

@@ -1,0 +1,94 @@
+//! `lightbench bench`: the program measures itself.
+
+use clap::{Args, Subcommand};
+use lightbench::assets::Progress;
+use lightbench::world::layouts;
+
+use super::arguments::{GpuArguments, Size};
+use super::progress::Bar;
+use super::report::say;
+use crate::ui::reload_bench::{self, ReloadBench};
+
+/// Arguments of `lightbench bench`.
+#[derive(Args, Debug)]
+#[command(
+    arg_required_else_help = true,
+    after_help = "\
+Examples:
+  lightbench bench world
+  lightbench bench world --objects 100000
+  lightbench bench reload --size 320x180 --edits 20"
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Culls and moves objects in three memory layouts: columns, an array of structures, and boxed
+    /// objects; says how fast each is and what holds it back
+    World {
+        /// How many objects; a million takes some seconds and 600 MB
+        #[arg(
+            long,
+            value_name = "N",
+            default_value_t = 1_000_000,
+            value_parser = clap::value_parser!(u32).range(1..=10_000_000)
+        )]
+        objects: u32,
+    },
+    /// Saves a shader again and again, and says how long it takes until the picture has changed
+    Reload {
+        /// The scene that is drawn, through deferred shading
+        #[arg(long, value_name = "SCENE", default_value = "atrium")]
+        scene: String,
+        /// Width and height in pixels
+        #[arg(long, value_name = "WxH", default_value = "640x360")]
+        size: Size,
+        /// How often the shader is saved
+        #[arg(
+            long,
+            value_name = "N",
+            default_value_t = 100,
+            value_parser = clap::value_parser!(u32).range(1..=10_000)
+        )]
+        edits: u32,
+        #[command(flatten)]
+        gpu: GpuArguments,
+    },
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// No driver, or a picture that does not change.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    match &arguments.what {
+        What::World { objects } => {
+            let report = layouts::measure(*objects as usize);
+            say(report.to_string().trim_end())
+        }
+        What::Reload {
+            scene,
+            size,
+            edits,
+            gpu,
+        } => {
+            let bench = ReloadBench {
+                gpu: gpu.options(),
+                scene: scene.clone(),
+                size: (*size).into(),
+                edits: *edits as usize,
+            };
+            let progress = Progress::new();
+            let bar = Bar::follow(&progress);
+            let times = reload_bench::reload(&bench, |done| {
+                // Only the bar listens.
+                let _ = progress.begin("saving a shader", done as f32 / *edits as f32);
+            });
+            drop(bar);
+            say(times?.to_string())
+        }
+    }
+}
