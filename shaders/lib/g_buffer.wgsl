@@ -1,8 +1,11 @@
 // How deferred pipelines keep a surface in textures.
 //
 // In:  a surface, or the texels of the G-buffer.
-// Out: the other. Quantisation: base colour 8 bits sRGB, specular 8 bits linear, normal 2 × 16
-//      bits octahedral, power 8 bits as log2(p) / 10.5, whose step is 2.9 %.
+// Out: the other. Quantisation: base colour and specular 8 bits each, as their square roots; normal
+//      2 × 16 bits octahedral; power 8 bits as log2(p) / 10.5, whose step is 2.9 %.
+//
+// A square root spends the 8 bits as the eye does, much like sRGB, and unlike the sRGB conversion of
+// texture units, which may be approximate, it is the same on every driver.
 #define_import_path lightbench::g_buffer
 
 #import lightbench::surface
@@ -10,7 +13,7 @@
 
 struct GBuffer {
     @location(0) hdr: vec4f,            // emitted radiance; lights add to it
-    @location(1) albedo: vec4f,         // base colour, specular
+    @location(1) albedo: vec4f,         // roots of base colour and specular
     @location(2) normal: vec2u,         // octahedral
     @location(3) power: f32,            // log2(p) / 10.5
 }
@@ -18,7 +21,7 @@ struct GBuffer {
 fn pack(s: surface::Surface) -> GBuffer {
     return GBuffer(
         vec4f(s.emissive, 1.0),
-        vec4f(s.base_color, s.specular),
+        sqrt(vec4f(s.base_color, s.specular)),
         normals::encode_octahedral(s.normal),
         log2(clamp(s.power, 1.0, 1448.0)) / 10.5,
     );
@@ -29,8 +32,8 @@ fn unpack(position: vec3f, albedo: vec4f, normal: vec2u, power: f32) -> surface:
     return surface::Surface(
         position,
         normals::decode_octahedral(normal),
-        albedo.rgb,
-        albedo.a,
+        albedo.rgb * albedo.rgb,
+        albedo.a * albedo.a,
         exp2(10.5 * power),
         vec3f(0.0),
     );

@@ -18,7 +18,7 @@ const PI: f32 = 3.14159265;
 // (N·H)^n scaled so that the lobe reflects its `specular` share at normal incidence.
 fn normalized_blinn_phong(n_dot_h: f32, power: f32) -> f32 {
     let scale = (power + 2.0) * (power + 4.0) / (8.0 * PI * (exp2(-0.5 * power) + power));
-    // exp2(power · log2(0)) is exp2(-inf) = 0; the maximum guards drivers that return NaN there.
+    // The maximum keeps the logarithm finite; so far off the highlight the lobe is nothing anyway.
     return scale * exp2(power * log2(max(n_dot_h, 1e-6)));
 }
 

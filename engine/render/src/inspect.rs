@@ -3,6 +3,8 @@
 //! Between two passes the target is drawn into a picture for people, on the GPU: nothing is read
 //! back and nothing waits. The shader is `shaders/inspect.wgsl`.
 
+mod display;
+
 use lightbench_assets::files::Files;
 
 use crate::description::PipelineDesc;
@@ -10,9 +12,11 @@ use crate::format::Format;
 use crate::gpu::Gpu;
 use crate::gpu_data::FrameData;
 use crate::problem::{Place, Problem};
-use crate::reflection::{SampleKind, VERTEX_ENTRY};
+use crate::reflection::SampleKind;
 use crate::shader::ShaderComposer;
-use crate::targets::{Target, Targets};
+use crate::targets::Targets;
+
+use display::{Display, PICTURE, bind, display};
 
 /// The shader that shows targets.
 pub const INSPECT_SHADER: &str = "shaders/inspect.wgsl";
@@ -114,12 +118,6 @@ struct InspectionData {
     padding: [u32; 2],
 }
 
-/// A way to show one kind of target.
-struct Display {
-    layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
-}
-
 /// The GPU side of inspecting.
 pub struct Inspector {
     gpu: Gpu,
@@ -139,9 +137,6 @@ const KINDS: [(SampleKind, &str); 3] = [
     (SampleKind::Uint, "uint_main"),
     (SampleKind::Depth, "depth_main"),
 ];
-
-/// The picture's format: its values are coded as sRGB already.
-const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 impl Inspector {
     /// Looks at nothing yet.
@@ -313,104 +308,4 @@ impl Inspector {
             })
             .map_err(|error| Problem::new(Place::file(INSPECT_SHADER), error))
     }
-}
-
-/// The binding of a kind's target in the shader.
-fn binding(kind: SampleKind) -> u32 {
-    match kind {
-        SampleKind::Float => 1,
-        SampleKind::Uint | SampleKind::Sint => 2,
-        SampleKind::Depth => 3,
-    }
-}
-
-fn display(
-    device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    kind: SampleKind,
-    entry: &str,
-) -> Display {
-    let sample_type = match kind {
-        SampleKind::Float => wgpu::TextureSampleType::Float { filterable: false },
-        SampleKind::Uint => wgpu::TextureSampleType::Uint,
-        SampleKind::Sint => wgpu::TextureSampleType::Sint,
-        SampleKind::Depth => wgpu::TextureSampleType::Depth,
-    };
-    let layout_entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("inspect"),
-        entries: &[
-            layout_entry(
-                0,
-                wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-            ),
-            layout_entry(
-                binding(kind),
-                wgpu::BindingType::Texture {
-                    sample_type,
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-            ),
-        ],
-    });
-    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("inspect"),
-        bind_group_layouts: &[Some(&layout)],
-        immediate_size: 0,
-    });
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("inspect"),
-        layout: Some(&pipeline_layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some(VERTEX_ENTRY),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(PICTURE.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
-    Display { layout, pipeline }
-}
-
-fn bind(
-    gpu: &Gpu,
-    uniforms: &wgpu::Buffer,
-    display: &Display,
-    kind: SampleKind,
-    target: &Target,
-) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("inspect"),
-        layout: &display.layout,
-        entries: &[
-            wgpu::BindGroupEntry {
-                binding: 0,
-                resource: uniforms.as_entire_binding(),
-            },
-            wgpu::BindGroupEntry {
-                binding: binding(kind),
-                resource: wgpu::BindingResource::TextureView(&target.sampled),
-            },
-        ],
-    })
 }

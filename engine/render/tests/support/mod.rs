@@ -283,7 +283,7 @@ pub fn deferred(accumulation: &str, volumes: bool) -> PipelineDesc {
         targets: vec![
             target("depth", "depth32float"),
             target("hdr", accumulation),
-            target("g_albedo", "rgba8unorm-srgb"),
+            target("g_albedo", "rgba8unorm"),
             target("g_normal", "rg16uint"),
             target("g_power", "r8unorm"),
         ],

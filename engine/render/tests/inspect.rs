@@ -1,0 +1,158 @@
+//! Pictures of targets against values computed here.
+#![allow(clippy::unwrap_used)]
+
+use lightbench_assets::files::Files;
+use lightbench_render::description::{PipelineDesc, TargetDesc, TargetSize};
+use lightbench_render::gpu_data::FrameData;
+use lightbench_render::inspect::{Channels, ColorMap, Inspection, Inspector};
+use lightbench_render::readback::read_bytes;
+use lightbench_render::targets::Targets;
+use lightbench_render::{Format, Gpu, GpuOptions, Place};
+
+/// The picture of one texel of a target of that format, cleared to a value.
+fn look(gpu: &Gpu, format: &str, clear: [f64; 4], change: impl FnOnce(&mut Inspection)) -> [u8; 4] {
+    let desc = PipelineDesc {
+        targets: vec![TargetDesc {
+            name: "target".into(),
+            at: Place::default(),
+            format: Format::from_name(format).unwrap(),
+            size: TargetSize::Absolute(3, 2),
+        }],
+        ..PipelineDesc::default()
+    };
+    let targets = Targets::new(gpu, &desc, (3, 2));
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    fill(&mut encoder, &targets, clear);
+
+    let mut request = Inspection::suited(&desc, 1, "target", 10.0).unwrap();
+    change(&mut request);
+    let mut inspector = Inspector::new(gpu);
+    inspector.look(&Files::shipped(), Some(request)).unwrap();
+    let frame = FrameData {
+        near: 0.5,
+        far: 50.0,
+        ..FrameData::default()
+    };
+    inspector.after_pass(0, &targets, &frame, &mut encoder);
+    assert!(inspector.picture().is_none(), "that was another pass");
+    inspector.after_pass(1, &targets, &frame, &mut encoder);
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = read_bytes(gpu, inspector.picture().unwrap()).unwrap();
+    gpu.check().unwrap();
+    assert_eq!(bytes.len(), 3 * 2 * 4);
+    assert!(bytes.chunks(4).all(|texel| texel == &bytes[..4]));
+    [bytes[0], bytes[1], bytes[2], bytes[3]]
+}
+
+/// Clears the target to a value: the first of `clear` for depth.
+fn fill(encoder: &mut wgpu::CommandEncoder, targets: &Targets, clear: [f64; 4]) {
+    let target = targets.get("target").unwrap();
+    let depth = target.texture.format().has_depth_aspect();
+    let [r, g, b, a] = clear;
+    let color = (!depth).then(|| wgpu::RenderPassColorAttachment {
+        view: &target.view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations {
+            load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
+            store: wgpu::StoreOp::Store,
+        },
+    });
+    let depth = depth.then(|| wgpu::RenderPassDepthStencilAttachment {
+        view: &target.view,
+        depth_ops: Some(wgpu::Operations {
+            load: wgpu::LoadOp::Clear(r as f32),
+            store: wgpu::StoreOp::Store,
+        }),
+        stencil_ops: None,
+    });
+    let colors = [color];
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: if depth.is_some() { &[] } else { &colors },
+        depth_stencil_attachment: depth,
+        ..Default::default()
+    });
+}
+
+/// IEC 61966-2-1, to 8 bits.
+fn srgb(linear: f64) -> u8 {
+    let coded = if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    };
+    (coded * 255.0).round() as u8
+}
+
+fn gpu() -> Gpu {
+    Gpu::open(&GpuOptions::default()).unwrap()
+}
+
+#[test]
+fn light_is_coded_as_srgb_and_ranges_are_stretched() {
+    let gpu = gpu();
+    let value = [0.25, 0.5, 1.5, 1.0];
+    let shown = look(&gpu, "rgba16float", value, |_| {});
+    assert_eq!(shown, [srgb(0.25), srgb(0.5), 255, 255]);
+    let shown = look(&gpu, "rgba16float", value, |inspection| {
+        (inspection.low, inspection.high) = (0.25, 2.25);
+    });
+    assert_eq!(shown, [0, srgb(0.125), srgb(0.625), 255]);
+}
+
+#[test]
+fn single_channels_are_grey_and_integers_keep_their_steps() {
+    let gpu = gpu();
+    let shown = look(&gpu, "rgba8unorm", [0.2, 0.4, 0.6, 0.8], |inspection| {
+        inspection.channels = Channels::Alpha;
+    });
+    assert_eq!(shown, [204, 204, 204, 255]);
+    let shown = look(&gpu, "rg16uint", [65535.0, 13107.0, 0.0, 0.0], |_| {});
+    assert_eq!(shown, [255, 51, 0, 255]);
+    let shown = look(&gpu, "r8uint", [51.0, 0.0, 0.0, 0.0], |_| {});
+    assert_eq!(shown, [51, 51, 51, 255]);
+}
+
+#[test]
+fn depth_is_shown_as_a_distance() {
+    let gpu = gpu();
+    // A surface 4 m away: reversed depth is near · (far − z) / (z · (far − near)).
+    let depth = 0.5 * (50.0 - 4.0) / (4.0 * (50.0 - 0.5));
+    let shown = look(&gpu, "depth32float", [depth, 0.0, 0.0, 0.0], |inspection| {
+        inspection.map = ColorMap::Data;
+        (inspection.low, inspection.high) = (0.0, 8.0);
+    });
+    assert!(
+        (127..=128).contains(&shown[0]) && shown[0] == shown[2],
+        "{shown:?}"
+    );
+    // What nothing covers is at the far plane, beyond the range.
+    let far = look(&gpu, "depth32float", [0.0; 4], |inspection| {
+        inspection.map = ColorMap::Data;
+    });
+    assert_eq!(far, [255, 255, 255, 255]);
+}
+
+#[test]
+fn false_colours_are_viridis_and_what_is_no_number_is_magenta() {
+    let gpu = gpu();
+    let shown = |value: f64| {
+        look(&gpu, "r32float", [value, 0.0, 0.0, 0.0], |inspection| {
+            inspection.map = ColorMap::FalseColor;
+        })
+    };
+    // Entries 0, 128 and 255 of the published table.
+    for (value, table) in [
+        (0.0, [68, 1, 84]),
+        (0.502, [33, 145, 140]),
+        (1.0, [253, 231, 37]),
+    ] {
+        let color = shown(value);
+        let near = |i: usize| u8::abs_diff(color[i], table[i]) <= 6;
+        assert!(
+            near(0) && near(1) && near(2),
+            "{value}: {color:?}, not {table:?}"
+        );
+    }
+    assert_eq!(shown(f64::NAN), [255, 0, 255, 255]);
+}
