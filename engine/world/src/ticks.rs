@@ -8,9 +8,9 @@ use std::ops::Range;
 
 /// A moment in the history of a world.
 ///
-/// Ticks are compared by their distance, so that the counter may wrap. A row
-/// that nobody wrote for 2³¹ ticks is reported as changed once too often, which
-/// costs an upload and never an error.
+/// Ticks are compared by their distance, so that the counter may wrap. Rows that
+/// nobody wrote for 2³¹ ticks (a month at 60 frames a second with ten observers)
+/// are reported as changed again, which costs uploads and is never an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Tick(pub(crate) u32);
 

@@ -55,7 +55,7 @@ impl World {
     }
 
     /// Removes an entity, its components and its descendants. False for a stale
-    /// handle.
+    /// handle. For many entities [`World::despawn_batch`] is several times faster.
     pub fn despawn(&mut self, entity: Entity) -> bool {
         if !self.contains(entity) {
             return false;

@@ -10,7 +10,7 @@ use std::fmt;
 use std::ops::Range;
 
 /// Rows of a block. Its flags and its list stay in the fastest cache.
-pub(crate) const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 1024;
 
 /// Room after the list of a block, because whole vectors are written.
 const SPARE: usize = 16;
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn lists_exactly_the_rows_that_pass() {
-        for len in [0, 1, 7, 8, 255, 256, 257, 5000] {
+        for len in [0, 1, 7, 8, 1023, 1024, 1025, 5000] {
             for pattern in [1, 2, 3, 7, 64, 10_000] {
                 let test = Passing((0..len).map(|i| (i * i) % pattern == 0).collect());
                 let passes = |&row: &u32| test.0[row as usize];

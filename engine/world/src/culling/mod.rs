@@ -18,6 +18,6 @@ mod volumes;
 pub use boxes::{Boxes, cull_boxes};
 pub use compact::{InstructionSet, instruction_set};
 pub use frustum::{Frustum, Plane};
-pub use spheres::{Spheres, cull_spheres};
+pub use spheres::{Spheres, cull_spheres, cull_spheres_with};
 pub use views::Culler;
 pub use volumes::{Ball, Cone, Volume};

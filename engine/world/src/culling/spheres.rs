@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::compact::{BLOCK, Test, append_passing};
-use super::{Frustum, Volume};
+use super::compact::{BLOCK, Test, append_passing_with};
+use super::{Frustum, InstructionSet, Volume, instruction_set};
 
 /// Bounding spheres as four arrays of the same length, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +35,20 @@ impl Spheres<'_> {
 /// ascending order: what a view shows ([`Frustum`]), or what a light reaches
 /// ([`Ball`](super::Ball), [`Cone`](super::Cone)). The vector's memory is reused.
 pub fn cull_spheres<V: Volume>(volume: &V, spheres: Spheres<'_>, visible: &mut Vec<u32>) {
+    cull_spheres_with(instruction_set(), volume, spheres, visible);
+}
+
+/// [`cull_spheres`] with instructions of the caller's choice, to compare them. If
+/// the processor lacks them, narrower ones are taken.
+pub fn cull_spheres_with<V: Volume>(
+    instructions: InstructionSet,
+    volume: &V,
+    spheres: Spheres<'_>,
+    visible: &mut Vec<u32>,
+) {
     visible.clear();
-    append_passing(&SphereTest { volume, spheres }, 0..spheres.len(), visible);
+    let test = SphereTest { volume, spheres };
+    append_passing_with(instructions, &test, 0..spheres.len(), visible);
 }
 
 impl Frustum {
@@ -96,8 +108,7 @@ impl<V: Volume> Test for SphereTest<'_, V> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::culling::compact::append_passing_with;
-    use crate::culling::{Ball, Cone, InstructionSet, Plane};
+    use crate::culling::{Ball, Cone, Plane};
     use glam::{Mat4, Vec3, Vec3Swizzles};
     use rand::{Rng, SeedableRng};
 
@@ -125,14 +136,12 @@ mod tests {
         let mut visible = vec![7; 3];
         cull_spheres(volume, spheres, &mut visible);
         assert_eq!(visible, expected);
-        let test = SphereTest { volume, spheres };
         for instructions in [
             InstructionSet::Baseline,
             InstructionSet::Avx2,
             InstructionSet::Avx512,
         ] {
-            visible.clear();
-            append_passing_with(instructions, &test, 0..spheres.len(), &mut visible);
+            cull_spheres_with(instructions, volume, spheres, &mut visible);
             assert_eq!(visible, expected, "{instructions}");
         }
     }

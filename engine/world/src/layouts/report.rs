@@ -100,10 +100,10 @@ impl LayoutResult {
             Job::Integrate => bandwidth.update,
         };
         let share = bytes_moved / (nanoseconds * 1e-9) / most;
-        let limit = if share >= 0.6 {
-            Limit::Bandwidth
-        } else if nanoseconds_cached >= 0.6 * nanoseconds {
+        let limit = if nanoseconds_cached >= 0.8 * nanoseconds {
             Limit::Computation
+        } else if share >= 0.6 {
+            Limit::Bandwidth
         } else {
             Limit::Latency
         };
