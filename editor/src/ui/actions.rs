@@ -146,12 +146,20 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
         .flat_map(|group| group.iter())
 }
 
+/// A key as people write it: signs as such, others by name.
+pub fn key_text(ctx: &egui::Context, shortcut: &KeyboardShortcut) -> String {
+    match shortcut.logical_key {
+        Key::OpenBracket => "[".to_owned(),
+        Key::CloseBracket => "]".to_owned(),
+        Key::Period => ".".to_owned(),
+        _ => ctx.format_shortcut(shortcut),
+    }
+}
+
 /// The key of an action, as people write it.
 pub fn shortcut_text(ctx: &egui::Context, action: Action) -> Option<String> {
     let entry = entries().find(|entry| entry.action == action)?;
-    entry
-        .shortcut
-        .map(|shortcut| ctx.format_shortcut(&shortcut))
+    entry.shortcut.map(|shortcut| key_text(ctx, &shortcut))
 }
 
 /// Does what the keys of this frame ask for, unless a text field has them.

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Context, Grid, RichText, Window};
 
-use crate::ui::actions::entries;
+use crate::ui::actions::{entries, key_text};
 use crate::ui::editor::Editor;
 
 /// What the mouse does in the viewport.
@@ -40,7 +40,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
                             continue;
                         };
                         ui.label(entry.title);
-                        ui.label(RichText::new(ui.ctx().format_shortcut(shortcut)).monospace());
+                        ui.label(RichText::new(key_text(ui.ctx(), shortcut)).monospace());
                         ui.end_row();
                     }
                     ui.label("Choose a pipeline");

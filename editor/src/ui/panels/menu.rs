@@ -2,7 +2,7 @@
 
 use egui::{Button, MenuBar, Ui};
 
-use crate::ui::actions::{Action, MENUS};
+use crate::ui::actions::{Action, MENUS, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
 
@@ -26,7 +26,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                         };
                         let mut button = Button::new(entry.title).selected(mark);
                         if let Some(shortcut) = &entry.shortcut {
-                            button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+                            button = button.shortcut_text(key_text(ui.ctx(), shortcut));
                         }
                         if ui.add(button).clicked() {
                             let ctx = ui.ctx().clone();

@@ -141,7 +141,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                     let index = table_row.index();
                     let row = &panel.rows[index];
                     table_row.col(|ui| {
-                        ui.label(&row.name).on_hover_text(row.kind);
+                        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                            ui.label(&row.name).on_hover_text(row.kind);
+                        });
                     });
                     table_row.col(|ui| {
                         if let Some(times) = workbench.timings.passes.get(index) {
