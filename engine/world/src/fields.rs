@@ -247,6 +247,19 @@ mod tests {
         assert!(set("Light", "size", Value::Float(1.0)).contains("intensity, range"));
     }
 
+    /// Only what the program acts upon is offered to people and scripts.
+    #[test]
+    fn components_without_effect_are_hidden() {
+        let shown: Vec<_> = all_components()
+            .filter(|info| !info.hidden())
+            .map(|info| info.name)
+            .collect();
+        assert_eq!(
+            shown,
+            ["Transform", "MeshRenderer", "Light", "Camera", "Name"]
+        );
+    }
+
     #[test]
     fn every_component_describes_itself() {
         for info in all_components() {

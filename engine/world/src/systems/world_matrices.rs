@@ -377,5 +377,17 @@ mod tests {
         world.set(d, sample(9)).unwrap();
         update_world_matrices(&mut world);
         assert_eq!(written(&world, seen), [d]);
+
+        // A new entity makes a new plan, and still nobody else's row is written.
+        let seen = world.observe();
+        let new = world.spawn();
+        world.insert(new, sample(5)).unwrap();
+        update_world_matrices(&mut world);
+        assert_eq!(written(&world, seen), [new]);
+
+        let seen = world.observe();
+        world.set_parent(d, Some(c)).unwrap();
+        update_world_matrices(&mut world);
+        assert_eq!(written(&world, seen), [d]);
     }
 }
