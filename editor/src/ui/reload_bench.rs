@@ -50,6 +50,8 @@ impl Default for ReloadBench {
 pub struct ReloadTimes {
     /// The adapter's name.
     pub adapter: String,
+    /// Size in pixels of the last picture: on slow adapters the editor shows a change small first.
+    pub drawn: (u32, u32),
     /// Milliseconds of each edit, in the order in which they were made.
     pub ms: Vec<f64>,
 }
@@ -69,9 +71,11 @@ impl std::fmt::Display for ReloadTimes {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             f,
-            "save to changed picture, {} edits of {SHADER}, {}: median {:.0} ms, p95 {:.0} ms, \
-             longest {:.0} ms",
+            "save to changed picture, {} edits of {SHADER}, first shown at {} x {}, {}: median \
+             {:.0} ms, p95 {:.0} ms, longest {:.0} ms",
             self.ms.len(),
+            self.drawn.0,
+            self.drawn.1,
             self.adapter,
             self.percentile(0.5),
             self.percentile(0.95),
@@ -105,11 +109,11 @@ pub fn reload(bench: &ReloadBench, mut on_edit: impl FnMut(usize)) -> anyhow::Re
     let gpu = Gpu::open(&bench.gpu)?;
     let adapter = gpu.summary.name.clone();
     let mut workbench = Workbench::new(gpu, options, wake);
-    workbench.resolution.adaptive = false;
     until(&mut workbench, &wakes, |w| w.picture_ready())?;
     let mut before = draw(&mut workbench, bench.size)?;
 
     let mut ms = Vec::with_capacity(bench.edits);
+    let mut drawn = bench.size;
     for edit in 0..bench.edits {
         let builds = workbench.pipelines.builds();
         // Every edit dims the picture by another amount.
@@ -120,6 +124,7 @@ pub fn reload(bench: &ReloadBench, mut on_edit: impl FnMut(usize)) -> anyhow::Re
         until(&mut workbench, &wakes, |w| w.pipelines.builds() > builds)?;
         workbench.draw(bench.size, Instant::now());
         workbench.gpu().wait(PATIENCE.as_secs())?;
+        drawn = workbench.drawn_size().unwrap_or(drawn);
         ms.push(saved.elapsed().as_secs_f64() * 1e3);
 
         let after = draw(&mut workbench, bench.size)?;
@@ -127,7 +132,7 @@ pub fn reload(bench: &ReloadBench, mut on_edit: impl FnMut(usize)) -> anyhow::Re
         before = after;
         on_edit(edit + 1);
     }
-    Ok(ReloadTimes { adapter, ms })
+    Ok(ReloadTimes { adapter, drawn, ms })
 }
 
 /// Ticks when woken until something is true.
@@ -172,6 +177,7 @@ mod tests {
     fn percentiles_are_nearest_ranks() {
         let times = ReloadTimes {
             adapter: String::new(),
+            drawn: (1, 1),
             ms: vec![4.0, 1.0, 3.0, 2.0],
         };
         assert_eq!(times.percentile(0.5), 2.0);

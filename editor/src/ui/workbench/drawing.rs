@@ -81,7 +81,10 @@ impl Workbench {
         let size = (size.0.max(1), size.1.max(1));
         let view = self.camera.view();
         let before = self.canvas.drawn;
-        if self.clock.playing || before.is_some_and(|drawn| drawn.view != view) {
+        // What changes counts as moving: a slow adapter shows it small at once, and in full as soon
+        // as nothing follows.
+        let changed = before.is_some_and(|drawn| drawn.view != view || self.canvas.stale);
+        if self.clock.playing || changed {
             self.canvas.moved_at = Some(now);
         }
         let moving = self.canvas.moved_at.is_some_and(|at| now - at < REST);
