@@ -323,3 +323,60 @@ fn wrong_comparisons_are_explained() {
     .failed(2, &["--reference"]);
     assert!(!project.file("r/report.html").exists());
 }
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_keeps_what_was_measured() {
+    use std::io::{BufRead as _, BufReader};
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let project = Project::new();
+    let arguments = [
+        "compare",
+        "tiny",
+        "--pipelines",
+        "deferred_shading",
+        "--size",
+        "16x9",
+        "--frames",
+        "1000000",
+        "--out",
+        "report",
+    ];
+    let mut program = Command::new(env!("CARGO_BIN_EXE_lightbench"))
+        .current_dir(project.path())
+        .args(arguments)
+        .env("LIGHTBENCH_LOG", "lightbench_lab=debug")
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(program.stderr.take().unwrap()).lines();
+    let begun = lines
+        .by_ref()
+        .any(|line| line.unwrap().contains("measuring"));
+    assert!(begun, "the measurement did not begin");
+    let id = program.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let asked = Instant::now();
+    let said: String = lines.map(|line| line.unwrap() + "\n").collect();
+    assert_eq!(program.wait().unwrap().code(), Some(130), "{said}");
+    assert!(asked.elapsed() < Duration::from_secs(20));
+    assert!(
+        said.contains("the report holds these") && said.contains("stopped"),
+        "{said}"
+    );
+    let json = fs::read_to_string(project.file("report/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let frames = report["frames"].as_u64().unwrap();
+    assert!((1..1_000_000).contains(&frames), "{frames}");
+    let times = report["pipelines"][0]["frame_cpu_ms"].as_array().unwrap();
+    assert_eq!(times.len() as u64, frames);
+}

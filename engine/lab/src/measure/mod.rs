@@ -94,6 +94,7 @@ pub fn measure(
         .iter()
         .map(|pipeline| Series::new(pipeline, frames as usize))
         .collect();
+    tracing::debug!(frames, "all pipelines are warm; measuring");
     let mut measured = 0;
     while measured < frames {
         let label = format!("measuring frame {} of {frames}", measured + 1);
