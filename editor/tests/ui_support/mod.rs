@@ -1,0 +1,168 @@
+//! The editor on a project of its own, for tests.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::accesskit::Role;
+use egui::mutex::RwLock;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use egui_kittest::wgpu::WgpuTestRenderer;
+use lightbench::assets::files::Files;
+use lightbench::render::readback::read_bytes;
+use lightbench::render::{Gpu, GpuOptions};
+use lightbench_editor::ui::workbench::Workbench;
+use lightbench_editor::ui::{Editor, EditorOptions, theme};
+use tempfile::TempDir;
+
+/// How long anything may take.
+pub const PATIENCE: Duration = Duration::from_secs(120);
+
+/// The editor on a project of its own.
+pub struct Bench {
+    /// The project's files.
+    pub files: Files,
+    /// The editor and its widgets.
+    pub harness: Harness<'static, Editor>,
+    // Last, so that the watcher ends before the folder does.
+    _project: TempDir,
+}
+
+impl Bench {
+    /// Opens the Cornell box through deferred shading and waits for the first picture.
+    pub fn open() -> Self {
+        let project = tempfile::tempdir().unwrap();
+        let files = Files::with_project(project.path()).unwrap();
+        let gpu = Gpu::open(&GpuOptions::default()).unwrap();
+        let format = wgpu::TextureFormat::Rgba8Unorm;
+        let settings = egui_wgpu::RendererOptions::PREDICTABLE;
+        let painter = egui_wgpu::Renderer::new(&gpu.device, format, settings);
+        let painter = Arc::new(RwLock::new(painter));
+        let state = egui_wgpu::RenderState {
+            adapter: gpu.adapter.clone(),
+            available_adapters: Vec::new(),
+            instance: wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle()),
+            device: gpu.device.clone(),
+            queue: gpu.queue.clone(),
+            target_format: format,
+            renderer: Arc::clone(&painter),
+        };
+        let renderer = WgpuTestRenderer::from_render_state(state);
+        let options = EditorOptions {
+            scene: "cornell_box".to_owned(),
+            ..EditorOptions::new(files.clone())
+        };
+        let mut workbench = Workbench::new(gpu, options, Arc::new(|| {}));
+        workbench.resolution.adaptive = false;
+        let editor = Editor::new(workbench, painter);
+        let harness = Harness::builder()
+            .with_size(egui::vec2(1100.0, 760.0))
+            .renderer(renderer)
+            .build_ui_state(
+                |ui, editor: &mut Editor| {
+                    theme::apply(ui.ctx());
+                    editor.ui(ui);
+                },
+                editor,
+            );
+        let mut bench = Self {
+            files,
+            harness,
+            _project: project,
+        };
+        bench.until("the first picture", |editor| {
+            editor.workbench.drawn_size().is_some() && !editor.workbench.library.is_busy()
+        });
+        bench.harness.run_steps(2);
+        bench
+    }
+
+    /// Runs frames until something is true.
+    pub fn until(&mut self, what: &str, done: impl Fn(&mut Editor) -> bool) {
+        let began = Instant::now();
+        loop {
+            self.harness.step();
+            if done(self.harness.state_mut()) {
+                return;
+            }
+            assert!(began.elapsed() < PATIENCE, "waited in vain for {what}");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// The bytes of the viewport's picture.
+    pub fn picture(&mut self) -> Vec<u8> {
+        self.harness.step();
+        let workbench = &mut self.harness.state_mut().workbench;
+        let picture = workbench.picture().unwrap();
+        read_bytes(workbench.gpu(), &picture.texture).unwrap()
+    }
+
+    /// Runs frames until the picture is another one.
+    pub fn until_picture_is_not(&mut self, before: &[u8]) -> Vec<u8> {
+        let began = Instant::now();
+        loop {
+            let now = self.picture();
+            if now != before {
+                return now;
+            }
+            assert!(began.elapsed() < PATIENCE, "the picture stayed the same");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Opens a combo box and picks an entry.
+    pub fn choose(&mut self, combo: &str, entry: &str) {
+        self.harness
+            .get_by_role_and_label(Role::ComboBox, combo)
+            .click();
+        self.harness.run_steps(3);
+        let is_entry = |node: &egui::accesskit::Role, label: Option<String>| {
+            *node == Role::Button && label.is_some_and(|label| label.starts_with(entry))
+        };
+        self.harness
+            .get_by(|node| is_entry(&node.role(), node.label()))
+            .click();
+        self.harness.run_steps(2);
+    }
+
+    /// Presses and releases the mouse.
+    pub fn click_at(&mut self, at: egui::Pos2) {
+        self.harness.hover_at(at);
+        self.harness.step();
+        self.harness.drag_at(at);
+        self.harness.step();
+        self.harness.drop_at(at);
+        self.harness.step();
+    }
+
+    /// Whether the message over the picture is there.
+    pub fn has_message(&self) -> bool {
+        self.harness
+            .query_by_label_contains("The last good picture stays")
+            .is_some()
+    }
+
+    /// How often a text is on the screen: an error's place is over the picture and in the log.
+    pub fn count(&self, text: &str) -> usize {
+        self.harness.query_all_by_label_contains(text).count()
+    }
+
+    /// The pipeline that draws.
+    pub fn shown(&self) -> String {
+        let pipelines = &self.harness.state().workbench.pipelines;
+        pipelines.shown().unwrap_or_default().to_owned()
+    }
+
+    /// A shipped file as a file of the project.
+    pub fn own(&self, path: &str) -> (PathBuf, String) {
+        let text = self.files.read_text(path).unwrap();
+        (self.files.copy_to_project(path).unwrap(), text)
+    }
+
+    /// Whether anything keeps the newest state off the screen.
+    pub fn has_problems(editor: &Editor) -> bool {
+        editor.workbench.problems().next().is_some()
+    }
+}
