@@ -71,7 +71,7 @@ pub fn validate(desc: &PipelineDesc, support: &impl FormatSupport) -> Result<(),
     }
     checker
         .problems
-        .sort_by(|a, b| (a.place.line, a.place.column).cmp(&(b.place.line, b.place.column)));
+        .sort_by_key(|problem| (problem.place.line, problem.place.column));
     Err(Problems(checker.problems))
 }
 

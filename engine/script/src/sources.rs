@@ -38,7 +38,11 @@ impl Source {
         let mut before = Token::EOF;
         // Whether the arguments of a function are being read.
         let mut in_arguments = false;
-        for (token, position) in engine.lex(&[text]).0 {
+        // The depths of braces at which texts wait for the rest of them: `a ${ … } b`.
+        let mut interrupted_texts = Vec::new();
+        let texts = [text];
+        let (tokens, control) = engine.lex(&texts);
+        for (token, position) in tokens {
             if let Token::Identifier(name) = &token {
                 match before {
                     Token::Fn => source.functions.push(Function {
@@ -66,7 +70,15 @@ impl Source {
             }
             match token {
                 Token::LeftBrace | Token::MapStart => depth += 1,
-                Token::RightBrace => depth -= 1,
+                Token::RightBrace => {
+                    depth -= 1;
+                    // As the parser does: what follows the brace is text again.
+                    if interrupted_texts.last() == Some(&depth) {
+                        interrupted_texts.pop();
+                        control.borrow_mut().is_within_text = true;
+                    }
+                }
+                Token::InterpolatedString(_) => interrupted_texts.push(depth),
                 Token::RightParen => in_arguments = false,
                 Token::EOF => break,
                 _ => {}
@@ -111,5 +123,28 @@ impl Sources {
 
     fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Source>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functions_after_an_interpolated_text_are_found() {
+        let text = "let a = `one ${1 + 2} two ${ if true { `x ${a} y` } else { 3 } } let b`;\n\
+                    const C = 1;\nfn update(time, dt) { print(`${time}`); }\nfn last() {}\n";
+        let source = Source::new(&Engine::new(), text);
+        let functions: Vec<_> = source
+            .functions
+            .iter()
+            .map(|f| (f.name.as_str(), f.arguments, f.line))
+            .collect();
+        assert_eq!(functions, [("update", 2, 3), ("last", 0, 4)]);
+        assert_eq!(source.constants, ["C"]);
+        assert!(
+            !source.variables.contains(&"b".to_owned()),
+            "text is no code"
+        );
     }
 }
