@@ -155,11 +155,9 @@ fn draw_and_wait(
     let serial = renderer.next_frame();
     renderer.set_frame_index(frame);
     let statistics = draw(renderer, scene, pipeline, size, f64::from(frame) * STEP)?.clone();
-    let queries = renderer.finish(TIMEOUT)?.into_iter();
+    let mut queries = renderer.finish(TIMEOUT)?.into_iter();
     Ok(Drawn {
         statistics,
-        queries: queries
-            .filter(|measured| measured.frame == serial)
-            .next_back(),
+        queries: queries.find(|measured| measured.frame == serial),
     })
 }
