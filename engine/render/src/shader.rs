@@ -30,6 +30,8 @@ pub struct ShaderComposer {
     composer: Composer,
     /// Import path (`lightbench::scene`) to file path.
     module_files: HashMap<String, String>,
+    /// File path to the module's text as it was written; the composer rewrites names in it.
+    module_texts: HashMap<String, String>,
 }
 
 impl ShaderComposer {
@@ -44,6 +46,7 @@ impl ShaderComposer {
         let mut this = Self {
             composer,
             module_files: HashMap::new(),
+            module_texts: HashMap::new(),
         };
         this.add_modules(files)?;
         Ok(this)
@@ -65,6 +68,7 @@ impl ShaderComposer {
                 .with_hint("add a line such as `#define_import_path lightbench::name`"));
             };
             self.module_files.insert(name.clone(), entry.path.clone());
+            self.module_texts.insert(entry.path.clone(), text.clone());
             waiting.push((name, entry.path, text));
         }
         while !waiting.is_empty() {
@@ -178,7 +182,13 @@ impl ShaderComposer {
         let file = if file.is_empty() { path } else { file };
         let offset = error.source.offset();
         let local = |byte: usize| (byte & ((1 << POSITION_BITS) - 1)).saturating_sub(offset);
-        let place = |byte: usize| place_of(file, source, byte);
+        // What the person wrote, which is what messages quote.
+        let written = if file == path {
+            text
+        } else {
+            self.module_texts.get(file).map_or(source, String::as_str)
+        };
+        let place = |byte: usize| written_place(file, source, written, byte);
         let start =
             |span: Option<std::ops::Range<usize>>| span.map_or(0, |range| local(range.start));
 
@@ -190,7 +200,7 @@ impl ShaderComposer {
                     .map(|(_, text)| text.to_owned())
                     .filter(|text| !text.is_empty());
                 let message = self.composer_text(parse.message());
-                let mut problem = Problem::new(place(at), message.clone()).with_source(source);
+                let mut problem = Problem::new(place(at), message.clone()).with_source(written);
                 problem.hint = detail
                     .map(|d| self.composer_text(&d))
                     .filter(|d| !message.contains(d.as_str()));
@@ -212,17 +222,17 @@ impl ShaderComposer {
                         (span.to_range(), note.clone())
                     });
                 let mut problem = Problem::new(place(start(span)), self.composer_text(&message))
-                    .with_source(source);
+                    .with_source(written);
                 problem.hint = Some(self.composer_text(&note))
                     .filter(|note| !note.is_empty() && !note.starts_with("naga::"));
                 problem
             }
             ComposerErrorInner::ImportNotFound(name, at) => {
-                self.unknown_module(name, place(*at), source)
+                self.unknown_module(name, place(*at), written)
             }
             ComposerErrorInner::ImportParseError(message, at) => {
                 Problem::new(place(*at), format!("this import can't be read: {message}"))
-                    .with_source(source)
+                    .with_source(written)
             }
             ComposerErrorInner::NotEnoughEndIfs(at)
             | ComposerErrorInner::TooManyEndIfs(at)
@@ -231,13 +241,13 @@ impl ShaderComposer {
             | ComposerErrorInner::UnknownShaderDefOperator { pos: at, .. }
             | ComposerErrorInner::InvalidShaderDefComparisonValue { pos: at, .. }
             | ComposerErrorInner::DefineInModule(at) => {
-                Problem::new(place(*at), error.inner.to_string()).with_source(source)
+                Problem::new(place(*at), error.inner.to_string()).with_source(written)
             }
             ComposerErrorInner::InvalidIdentifier { original, at } => Problem::new(
                 place(start(at.to_range())),
                 format!("`{original}` can't be a name in a module"),
             )
-            .with_source(source)
+            .with_source(written)
             .with_hint(
                 "names in shaders/lib must not end in a digit or an underscore, nor be WGSL words",
             ),
@@ -264,6 +274,45 @@ fn undecorate(message: &str) -> String {
     }
     plain.push_str(rest);
     plain
+}
+
+/// The place in a file of a byte in the composer's version of it, in which lines are the same but
+/// names are decorated: the same word of the same line, counted from the line's beginning.
+fn written_place(file: &str, composed: &str, written: &str, byte: usize) -> Place {
+    let place = place_of(file, composed, byte);
+    let line = |text: &'_ str| {
+        text.lines()
+            .nth(place.line as usize - 1)
+            .unwrap_or("")
+            .to_owned()
+    };
+    let (composed, written) = (line(composed), line(written));
+    if composed == written {
+        return place;
+    }
+    let word = |c: char| c.is_alphanumeric() || c == '_';
+    let before: String = composed.chars().take(place.column as usize - 1).collect();
+    let token: String = composed
+        .chars()
+        .skip(place.column as usize - 1)
+        .take_while(|&c| word(c))
+        .collect();
+    let (before, token) = (undecorate(&before), undecorate(&token));
+    let words = |text: &str| -> Vec<usize> {
+        text.match_indices(token.as_str())
+            .filter(|(at, _)| {
+                !text[..*at].ends_with(word) && !text[*at + token.len()..].starts_with(word)
+            })
+            .map(|(at, _)| at)
+            .collect()
+    };
+    let column = if token.is_empty() {
+        before.chars().count().min(written.chars().count())
+    } else {
+        let at = words(&written).get(words(&before).len()).copied();
+        at.map_or(before.chars().count(), |at| written[..at].chars().count())
+    };
+    Place::new(file, place.line, column as u32 + 1)
 }
 
 /// Line and column of a byte.

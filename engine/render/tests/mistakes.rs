@@ -299,6 +299,24 @@ fn a_mistake_in_a_module_names_the_module() {
 }
 
 #[test]
+fn messages_quote_what_was_written() {
+    let mut workshop = Workshop::new();
+    let path = "shaders/mine.wgsl";
+    let line = "    let x = color::encode_srgb(color::tone_reinhard(vec3f(1.0))) + missing + color::encode_srgb(2);";
+    workshop.write(
+        path,
+        &format!(
+            "#import lightbench::color\n@group(1) @binding(0) var hdr: texture_2d<f32>;\n@fragment\n\
+             fn fragment_main() -> @location(0) vec4f {{\n{line}\n    return vec4f(x, textureLoad(hdr, vec2i(0), 0).x);\n}}\n"
+        ),
+    );
+    let text = workshop.problems(&with_shader(path)).to_string();
+    let column = line.find("missing").unwrap() + 1;
+    assert!(text.contains(&format!("{path}:5:{column}: ")), "{text}");
+    assert!(text.contains(line), "{text}");
+}
+
+#[test]
 fn a_reload_after_mending_compiles_again() {
     let mut workshop = Workshop::new();
     let path = "shaders/lib/lighting.wgsl";
