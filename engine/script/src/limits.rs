@@ -3,7 +3,7 @@
 //! Scripts come from strangers. Rhai itself bounds single values and counts operations; the watch
 //! adds the two things that it can't see: the clock, and the memory of everything together.
 
-use std::sync::atomic::{AtomicI64, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -93,8 +93,10 @@ pub(crate) struct Watch {
     /// Live bytes of the thread when the run began.
     bytes_at_start: AtomicI64,
     memory_bytes: i64,
-    /// Through which the host stops the run.
+    /// Through which the host stops the load.
     progress: OnceLock<Progress>,
+    /// Whether the load is over: what happens to its progress later stops nothing.
+    loaded: AtomicBool,
 }
 
 impl Watch {
@@ -105,6 +107,7 @@ impl Watch {
             bytes_at_start: AtomicI64::new(0),
             memory_bytes: i64::try_from(limits.memory_bytes).unwrap_or(i64::MAX),
             progress: OnceLock::new(),
+            loaded: AtomicBool::new(false),
         })
     }
 
@@ -132,10 +135,15 @@ impl Watch {
         result
     }
 
-    /// Ends runs when `progress` is cancelled.
+    /// Ends runs when `progress` is cancelled, until [`Watch::loaded`] is called.
     pub(crate) fn stop_with(&self, progress: &Progress) {
         // The first one stays; there is one for each engine.
         let _ = self.progress.set(progress.clone());
+    }
+
+    /// The load is over. A task that is dropped with its result taken cancels its progress.
+    pub(crate) fn loaded(&self) {
+        self.loaded.store(true, Ordering::Relaxed);
     }
 
     fn check(&self, operations: u64) -> Option<Stop> {
@@ -145,7 +153,8 @@ impl Watch {
         }
         // Asking for the time costs more than an operation.
         if operations.is_multiple_of(128) {
-            if self.progress.get().is_some_and(Progress::is_cancelled) {
+            let cancelled = || self.progress.get().is_some_and(Progress::is_cancelled);
+            if !self.loaded.load(Ordering::Relaxed) && cancelled() {
                 return Some(Stop::Cancelled);
             }
             let now = u64::try_from(self.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX);

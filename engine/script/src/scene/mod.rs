@@ -219,6 +219,8 @@ impl Scene {
         if !problems.is_empty() {
             return Err(Problems(problems));
         }
+        self.host.watch.loaded();
+        data.progress = Progress::new();
         self.parameters = data.parameters.clone();
         std::mem::swap(&mut self.world, &mut data.world);
         std::mem::swap(&mut self.assets, &mut data.assets);

@@ -308,3 +308,23 @@ fn models_become_families() {
     assert!(log.iter().any(|line| line.text == "2.0"), "{log:?}");
     assert_eq!(log[0].place.line, 1);
 }
+
+#[test]
+fn what_happens_to_the_progress_of_a_load_later_does_not_stop_the_scene() {
+    let text = r#"
+        spawn("box").at(0, 0, 0);
+        fn update(time, dt) {
+            // Enough operations for the watch to look.
+            for i in 0..1000 { let x = i * 2; }
+            entity("box").at(time, 0, 0);
+        }
+        "#;
+    let (_folder, files) = project(&[("scripts/scenes/test.rhai", text)]);
+    let progress = Progress::new();
+    let mut scene = load_scene(&files, "test", &Settings::new(), &progress).unwrap();
+    // As a task does that is dropped with its result taken.
+    progress.cancel();
+    scene.update(2.0, 0.1).unwrap();
+    let place: Transform = named(&scene, "box");
+    assert_eq!(place.translation, Vec3::new(2.0, 0.0, 0.0));
+}
