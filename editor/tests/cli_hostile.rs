@@ -75,7 +75,10 @@ fn models_with_a_broken_part_are_drawn_with_one_warning() {
     project.write("pair.obj", format!("{TRIANGLE}f 1 2\nf 1 2 3\n"));
     let outcome = project.render("showroom", "pair.png", &["--model", "pair.obj"]);
     assert_eq!(outcome.status, 0, "{}", outcome.all());
-    let warning = outcome.stderr.lines().find(|line| line.contains("pair.obj, line 4"));
+    let warning = outcome
+        .stderr
+        .lines()
+        .find(|line| line.contains("pair.obj, line 4"));
     assert!(warning.is_some(), "{}", outcome.all());
     for (name, picture) in [
         ("zero", Vec::new()),

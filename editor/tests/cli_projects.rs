@@ -218,10 +218,18 @@ fn the_layouts_are_measured() {
     let project = Project::new();
     let bench = ["bench", "world", "--objects", "5000"];
     let report = project.run(&bench).succeeded().stdout;
-    for part in ["5000 objects", "columns", "array of structures", "boxed objects", "ns/object"] {
+    for part in [
+        "5000 objects",
+        "columns",
+        "array of structures",
+        "boxed objects",
+        "ns/object",
+    ] {
         assert!(report.contains(part), "no `{part}` in {report}");
     }
-    project.run(&["bench", "world", "--objects", "0"]).failed(2, &["--objects"]);
+    project
+        .run(&["bench", "world", "--objects", "0"])
+        .failed(2, &["--objects"]);
 }
 
 #[test]
