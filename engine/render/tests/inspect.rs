@@ -49,7 +49,7 @@ fn fill(encoder: &mut wgpu::CommandEncoder, targets: &Targets, clear: [f64; 4]) 
     let target = targets.get("target").unwrap();
     let depth = target.texture.format().has_depth_aspect();
     let [r, g, b, a] = clear;
-    let color = (!depth).then(|| wgpu::RenderPassColorAttachment {
+    let color = (!depth).then_some(wgpu::RenderPassColorAttachment {
         view: &target.view,
         depth_slice: None,
         resolve_target: None,
@@ -58,7 +58,7 @@ fn fill(encoder: &mut wgpu::CommandEncoder, targets: &Targets, clear: [f64; 4]) 
             store: wgpu::StoreOp::Store,
         },
     });
-    let depth = depth.then(|| wgpu::RenderPassDepthStencilAttachment {
+    let depth = depth.then_some(wgpu::RenderPassDepthStencilAttachment {
         view: &target.view,
         depth_ops: Some(wgpu::Operations {
             load: wgpu::LoadOp::Clear(r as f32),
