@@ -1,6 +1,7 @@
 //! From shader files to checked modules: imports, defines, validation, reflection.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 use lightbench_assets::files::Files;
 use naga::valid::Capabilities;
@@ -31,7 +32,7 @@ pub struct ShaderComposer {
     /// Import path (`lightbench::scene`) to file path.
     module_files: HashMap<String, String>,
     /// File path to the module's text as it was written; the composer rewrites names in it.
-    module_texts: HashMap<String, String>,
+    module_texts: BTreeMap<String, String>,
 }
 
 impl ShaderComposer {
@@ -46,7 +47,7 @@ impl ShaderComposer {
         let mut this = Self {
             composer,
             module_files: HashMap::new(),
-            module_texts: HashMap::new(),
+            module_texts: BTreeMap::new(),
         };
         this.add_modules(files)?;
         Ok(this)
@@ -134,6 +135,15 @@ impl ShaderComposer {
             }),
             Err(error) => Err(self.explain(&error, path, &text)),
         }
+    }
+
+    /// A number for a shader's text with its defines and all modules: where anything of it differs,
+    /// so does the number.
+    pub fn fingerprint(&self, text: &str, defines: &[&str]) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (text, defines).hash(&mut hasher);
+        self.module_texts.hash(&mut hasher);
+        hasher.finish()
     }
 
     /// The composer looks for a module only where something of it is used; a misspelt import of an

@@ -38,10 +38,7 @@ fn a_lamp_over_a_floor_gives_the_closed_form() {
         (found / expected - 1.0).abs() < 1e-3,
         "{found} instead of {expected}"
     );
-    assert!(
-        texel(&image, 0, 0)[0] > 0.0,
-        "the floor fills the picture"
-    );
+    assert!(texel(&image, 0, 0)[0] > 0.0, "the floor fills the picture");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! Everything is checked before anything is built, and everything is built before anything is
 //! replaced: a pipeline that fails to compile leaves the one on screen alone.
 
+mod cache;
 mod state;
 
 use std::collections::HashMap;
@@ -19,6 +20,7 @@ use crate::reflection::{FRAGMENT_ENTRY, Reflection, VERTEX_ENTRY, reflect};
 use crate::shader::{Shader, ShaderComposer};
 use crate::validate::validate;
 use crate::variant::Variant;
+use cache::{PipelineCache, PipelineKey};
 use state::{State, VertexStreams, blend, compare};
 
 pub use state::DrawPipeline;
@@ -33,6 +35,15 @@ struct LoadedShader {
     shader: Shader,
     reflection: Reflection,
     module: wgpu::ShaderModule,
+    /// Differs where the text of the shader, of a module or a define differs.
+    fingerprint: u64,
+}
+
+/// A pipeline layout, and what tells it from others.
+struct PassLayout {
+    layout: wgpu::PipelineLayout,
+    /// The formats that group 1 reads, and whether there is a group 2.
+    key: String,
 }
 
 /// Compiles descriptions. Keeps composed modules until [`Compiler::forget`] is told that files
@@ -42,6 +53,9 @@ pub struct Compiler {
     layout: SceneLayout,
     composer: Option<ShaderComposer>,
     shaders: HashMap<(String, Vec<&'static str>, Vec<String>), LoadedShader>,
+    /// Pipelines that were built, so that a save rebuilds only the passes that it touches, and
+    /// going back to a text seen before rebuilds nothing.
+    built: PipelineCache,
 }
 
 impl Compiler {
@@ -52,6 +66,7 @@ impl Compiler {
             layout: layout.clone(),
             composer: None,
             shaders: HashMap::new(),
+            built: PipelineCache::default(),
         }
     }
 
@@ -71,6 +86,7 @@ impl Compiler {
     /// All mistakes of the description; else the first mistake of each shader.
     pub fn compile(&mut self, files: &Files, desc: &PipelineDesc) -> Result<Pipeline, Problems> {
         validate(desc, &self.gpu)?;
+        self.built.begin();
         let mut problems = Vec::new();
         let mut passes = Vec::new();
         for pass in &desc.passes {
@@ -131,6 +147,7 @@ impl Compiler {
             .collect();
         let shader = composer.compose(files, path, &defines)?;
         let reflection = reflect(&shader.module);
+        let fingerprint = composer.fingerprint(&shader.text, &defines);
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
         let module = self
             .gpu
@@ -152,6 +169,7 @@ impl Compiler {
             shader,
             reflection,
             module,
+            fingerprint,
         })
     }
 
@@ -190,6 +208,12 @@ impl Compiler {
         }
 
         let target_layout = target_layout(&self.gpu, &sources, desc);
+        let formats: Vec<_> = pass
+            .reads
+            .iter()
+            .filter_map(|read| Some(desc.target(&read.target)?.format))
+            .collect();
+        let key = format!("{sources:?} {formats:?} {}", parameters.is_some());
         let parameters =
             parameters.map(|(members, size)| ParameterBlock::new(&self.gpu, members, size));
         let layout = self
@@ -204,6 +228,7 @@ impl Compiler {
                 ],
                 immediate_size: 0,
             });
+        let layout = PassLayout { layout, key };
         let pipelines = match &pass.kind {
             PassKind::Geometry { .. } => self.geometry(files, desc, pass, &layout),
             PassKind::Lights { .. } => self.lights(files, desc, pass, &layout),
@@ -224,7 +249,7 @@ impl Compiler {
         files: &Files,
         desc: &PipelineDesc,
         pass: &PassDesc,
-        layout: &wgpu::PipelineLayout,
+        layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
         let mut variants = Vec::with_capacity(Variant::COUNT);
         for variant in Variant::all() {
@@ -262,7 +287,7 @@ impl Compiler {
         files: &Files,
         desc: &PipelineDesc,
         pass: &PassDesc,
-        layout: &wgpu::PipelineLayout,
+        layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
         let has_depth = pass.depth.is_some();
         let mut build = |cull, test, defines: &'static [&'static str]| {
@@ -291,7 +316,7 @@ impl Compiler {
         files: &Files,
         desc: &PipelineDesc,
         pass: &PassDesc,
-        layout: &wgpu::PipelineLayout,
+        layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
         let state = State {
             fragment_defines: &[],
@@ -312,7 +337,7 @@ impl Compiler {
         desc: &PipelineDesc,
         pass: &PassDesc,
         fragment: Option<&ShaderDesc>,
-        layout: &wgpu::PipelineLayout,
+        layout: &PassLayout,
         state: &State,
     ) -> Result<DrawPipeline, Problem> {
         let mut own_vertex = false;
@@ -367,9 +392,24 @@ impl Compiler {
                         bias: wgpu::DepthBiasState::default(),
                     })
                 });
+        let key = PipelineKey {
+            vertex: vertex.fingerprint,
+            fragment: fragment.map(|fragment| fragment.fingerprint),
+            state: format!(
+                "{colors:?} {depth_stencil:?} {:?} {:?} {}",
+                state.front, state.cull, layout.key
+            ),
+        };
+        let attributes = streams == VertexStreams::All;
+        if let Some(pipeline) = self.built.get(&key) {
+            return Ok(DrawPipeline {
+                pipeline,
+                attributes,
+            });
+        }
         let descriptor = wgpu::RenderPipelineDescriptor {
             label: Some(&pass.name),
-            layout: Some(layout),
+            layout: Some(&layout.layout),
             vertex: wgpu::VertexState {
                 module: &vertex.module,
                 entry_point: Some(VERTEX_ENTRY),
@@ -402,9 +442,10 @@ impl Compiler {
                     format!("the pass `{}` can't be built: {error}", pass.name),
                 )
             })?;
+        self.built.insert(key, &pipeline);
         Ok(DrawPipeline {
             pipeline,
-            attributes: streams == VertexStreams::All,
+            attributes,
         })
     }
 }
