@@ -210,6 +210,7 @@ fn describe(
         seeds: Vec::new(),
         inputs: Vec::new(),
         pipelines: Vec::new(),
+        heat_map_scale: 1.0,
     }
 }
 

@@ -11,13 +11,14 @@ const GAP: u32 = 8;
 /// Height of the legend's bar in pixels.
 const BAR_HEIGHT: u32 = 10;
 
-/// Paints a map of values in 0 to 1, one pixel a value, without a legend.
-pub fn heat_map(map: &Plane, colors: ColorMap) -> LdrImage {
+/// Paints a map of values in 0 to 1, one pixel a value, without a legend. `scale` is the value that
+/// gets the last colour; greater ones get it too.
+pub fn heat_map(map: &Plane, colors: ColorMap, scale: f32) -> LdrImage {
     let pixels = map
         .values
         .par_iter()
         .map(|&v| {
-            let [r, g, b] = colors.color(v);
+            let [r, g, b] = colors.color(v / scale);
             [r, g, b, 255]
         })
         .collect();
@@ -28,11 +29,21 @@ pub fn heat_map(map: &Plane, colors: ColorMap) -> LdrImage {
     }
 }
 
+/// The scale that shows the most of maps whose largest value is `largest`, among few round ones, so
+/// that two reports mostly have the same.
+pub fn round_scale(largest: f32) -> f32 {
+    let scales = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
+    scales
+        .into_iter()
+        .find(|scale| largest <= *scale)
+        .unwrap_or(1.0)
+}
+
 /// Paints a map with a legend below it: a bar from 0 at the left to 1 at the right with a tick at
 /// each tenth and the numbers 0, 0.5 and 1. For files that are looked at alone. Maps narrower than
 /// 64 pixels get no legend: it could not be read.
 pub fn heat_map_with_legend(map: &Plane, colors: ColorMap) -> LdrImage {
-    let plain = heat_map(map, colors);
+    let plain = heat_map(map, colors, 1.0);
     if plain.width < 64 {
         return plain;
     }
@@ -109,6 +120,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_scale_is_round_and_holds_the_largest_value() {
+        assert_eq!(round_scale(0.0), 0.01);
+        assert_eq!(round_scale(0.036), 0.05);
+        assert_eq!(round_scale(0.05), 0.05);
+        assert_eq!(round_scale(0.51), 1.0);
+        let map = Plane {
+            width: 1,
+            height: 1,
+            values: vec![0.05],
+        };
+        let scaled = heat_map(&map, ColorMap::Magma, 0.05);
+        assert_eq!(scaled.pixels[0][..3], ColorMap::Magma.color(1.0));
+    }
+
+    #[test]
     fn legend_runs_from_the_first_to_the_last_colour() {
         let map = Plane::from_index(100, 20, |i| (i % 100) as f32 / 99.0);
         let image = heat_map_with_legend(&map, ColorMap::Viridis);
@@ -122,7 +148,7 @@ mod tests {
         assert_eq!(at(0, 21), [255; 4]);
         assert_eq!(
             &image.pixels[..2000],
-            &heat_map(&map, ColorMap::Viridis).pixels[..]
+            &heat_map(&map, ColorMap::Viridis, 1.0).pixels[..]
         );
     }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::colormap::ColorMap;
 use crate::diff::{DiffOptions, LdrDifference, diff_ldr};
-use crate::heatmap::heat_map;
+use crate::heatmap::{heat_map, round_scale};
 use crate::metrics::{LinearErrors, linear_errors};
 use crate::{HdrImage, LabError, LdrImage};
 
@@ -47,6 +47,9 @@ pub struct Comparison {
     pub inputs: Vec<Input>,
     /// The results, in the order in which the pipelines were asked for.
     pub pipelines: Vec<PipelineResult>,
+    /// The FLIP value that the heat maps paint with their last colour.
+    #[serde(default = "full_scale")]
+    pub heat_map_scale: f32,
 }
 
 /// The computer that measured.
@@ -194,6 +197,11 @@ pub struct TargetResult {
     pub bytes: u64,
 }
 
+/// The scale of reports that do not say it.
+fn full_scale() -> f32 {
+    1.0
+}
+
 impl Comparison {
     /// The result that the others are compared with, if it was measured.
     pub fn reference_result(&self) -> Option<&PipelineResult> {
@@ -216,6 +224,7 @@ impl Comparison {
             return Ok(());
         };
         let linear_reference = linear(&self.reference);
+        let mut maps = Vec::new();
         for pipeline in self
             .pipelines
             .iter_mut()
@@ -223,11 +232,23 @@ impl Comparison {
         {
             if let Some(picture) = &pipeline.picture {
                 let diff = diff_ldr(&reference, picture, options)?;
-                pipeline.heat_map = Some(heat_map(&diff.map, ColorMap::Magma));
+                maps.push((pipeline.name.clone(), diff.map));
                 pipeline.difference = Some(diff.difference);
             }
             if let (Some(reference), Some(test)) = (linear_reference, linear(&pipeline.name)) {
                 pipeline.linear_difference = Some(linear_errors(reference, test)?);
+            }
+        }
+        // One scale for all, so that their colours can be compared.
+        let largest = maps
+            .iter()
+            .flat_map(|(_, map)| &map.values)
+            .copied()
+            .fold(0.0, f32::max);
+        self.heat_map_scale = round_scale(largest);
+        for pipeline in &mut self.pipelines {
+            if let Some((_, map)) = maps.iter().find(|(name, _)| *name == pipeline.name) {
+                pipeline.heat_map = Some(heat_map(map, ColorMap::Magma, self.heat_map_scale));
             }
         }
         Ok(())

@@ -171,6 +171,7 @@ pub fn with(pipelines: Vec<PipelineResult>) -> Comparison {
             hash: "9f2feb0f1ef425b292f2f94bdd2d1d3b5c8f0e0e".into(),
         }],
         pipelines,
+        heat_map_scale: 1.0,
     };
     c.compare_pictures(|_| None, DiffOptions::default())
         .unwrap();

@@ -83,6 +83,18 @@ fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
             &format!("Not measured: {} ({why}).", what.join(", ")),
         );
     }
+    if let Some(note) = counter_note(c, p) {
+        w.leaf("p", &[("class", "note")], note);
+    }
+}
+
+/// What must be known of the driver's counters, where there is something.
+fn counter_note(c: &Comparison, p: &PipelineResult) -> Option<&'static str> {
+    let counted = p.passes.iter().any(|pass| pass.fragments.is_some());
+    (counted && c.adapter.software && c.adapter.driver_info.starts_with("Mesa 22")).then_some(
+        "Fragments are the driver's count. Mesa 22 counts in blocks and gives more than were shaded, \
+         96 for a square of 64 for example; compare them, don't quote them.",
+    )
 }
 
 /// Each reason for which something was not measured, with what it concerns.

@@ -27,7 +27,7 @@ pub fn section(w: &mut Writer, c: &Comparison, images: &[Encoded]) {
                 pair(w, c, pipeline, image, number);
             }
             if images.iter().any(|i| i.heat_map.is_some()) {
-                legend(w);
+                legend(w, c.heat_map_scale);
             }
             metrics_table(w, c);
         },
@@ -189,13 +189,14 @@ fn difference_caption(p: &PipelineResult) -> String {
 }
 
 /// The colours of the heat maps with their values.
-fn legend(w: &mut Writer) {
-    let label = "Colours of the heat maps: black is a FLIP of 0, pale yellow a FLIP of 1";
+fn legend(w: &mut Writer, scale: f32) {
+    let label =
+        format!("Colours of the heat maps: black is a FLIP of 0, pale yellow a FLIP of {scale}");
     let svg = [
         ("class", "legend"),
         ("viewBox", "0 0 400 44"),
         ("role", "img"),
-        ("aria-label", label),
+        ("aria-label", &label),
     ];
     w.element("svg", &svg, |w| {
         w.element("defs", &[], |w| {
@@ -224,14 +225,16 @@ fn legend(w: &mut Writer) {
             ],
             |_| {},
         );
-        for i in 0..=4 {
-            let x = (10 + 95 * i).to_string();
+        for i in 0..=4_u8 {
+            let x = (10 + 95 * u32::from(i)).to_string();
             w.element(
                 "path",
                 &[("class", "axis"), ("d", &format!("M{x} 16v4"))],
                 |_| {},
             );
-            let text = ["0", "0.25", "0.5", "0.75", "1"][i];
+            let value = f64::from(scale) * f64::from(i) / 4.0;
+            let text = format!("{:.4}", value);
+            let text = text.trim_end_matches('0').trim_end_matches('.');
             w.leaf(
                 "text",
                 &[("x", &x), ("y", "33"), ("text-anchor", "middle")],
@@ -239,7 +242,7 @@ fn legend(w: &mut Writer) {
             );
         }
     });
-    w.leaf("p", &[("class", "note")], "FLIP of each pixel, painted with the map magma: 0 is no visible difference, 1 the largest.");
+    w.leaf("p", &[("class", "note")], &format!("FLIP of each pixel, painted with the map magma from 0, no visible difference, to {scale}; the largest that FLIP can be is 1."));
 }
 
 fn metrics_table(w: &mut Writer, c: &Comparison) {
