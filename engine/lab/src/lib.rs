@@ -11,7 +11,7 @@
 //! - [`report`] holds a comparison of pipelines as data and writes it as one HTML file, as JSON and
 //!   as CSV, with a summary in words that claims nothing beyond the intervals.
 //!
-//! - [`reference`] has the shaders' formulas on the CPU.
+//! - [`mod@reference`] has the shaders' formulas on the CPU.
 //!
 //! - [`capture`] takes a picture of a scene, [`measure`] times pipelines on it. They need a GPU; the
 //!   rest doesn't.

@@ -2,7 +2,7 @@
 
 use super::FileError;
 
-/// Text from bytes, as [`Files::read_text`] gives it; `path` is for messages.
+/// Text from bytes, as [`Files::read_text`](super::Files::read_text) gives it; `path` is for messages.
 ///
 /// # Errors
 /// Text that is not UTF-8, with its line.
