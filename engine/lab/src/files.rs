@@ -1,42 +1,29 @@
-//! Writing files such that a reader never sees half of one.
+//! Writing the files of a report.
 
 use std::fs;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::io;
+use std::path::Path;
+
+use lightbench_assets::files::{FileError, write_atomic};
 
 use crate::LabError;
 
-/// Writes a file under a temporary name beside its place and renames it, so that the place holds
-/// either the old content or all of the new. Missing folders are made.
+/// Writes a file such that a reader finds the old content or all of the new, never half of it.
+/// Missing folders are made.
 ///
 /// # Errors
 /// [`LabError::Write`] with the path and the system's reason; no temporary file stays behind.
 pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), LabError> {
-    static COUNTER: AtomicU64 = AtomicU64::new(0);
     let fail = |source| LabError::Write {
         path: path.to_path_buf(),
         source,
     };
-    let name = path
-        .file_name()
-        .ok_or_else(|| fail(std::io::Error::other("the path names no file")))?;
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
-        _ => PathBuf::from("."),
-    };
-    fs::create_dir_all(&folder).map_err(fail)?;
-    let number = COUNTER.fetch_add(1, Ordering::Relaxed);
-    let mut temporary_name = std::ffi::OsString::from(".");
-    temporary_name.push(name);
-    temporary_name.push(format!(".{}-{number}.tmp", std::process::id()));
-    let temporary = folder.join(temporary_name);
-    let written = fs::File::create(&temporary)
-        .and_then(|mut file| file.write_all(content).and_then(|()| file.sync_all()))
-        .and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|error| {
-        let _ = fs::remove_file(&temporary);
-        fail(error)
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(fail)?;
+    }
+    write_atomic(path, content).map_err(|error| match error {
+        FileError::Io { error, .. } => fail(error),
+        other => fail(io::Error::other(other)),
     })
 }
 
