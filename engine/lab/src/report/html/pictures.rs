@@ -194,7 +194,7 @@ fn legend(w: &mut Writer, scale: f32) {
         format!("Colours of the heat maps: black is a FLIP of 0, pale yellow a FLIP of {scale}");
     let svg = [
         ("class", "legend"),
-        ("viewBox", "0 0 400 44"),
+        ("viewBox", "0 0 420 44"),
         ("role", "img"),
         ("aria-label", &label),
     ];
@@ -216,7 +216,7 @@ fn legend(w: &mut Writer, scale: f32) {
         w.element(
             "rect",
             &[
-                ("x", "10"),
+                ("x", "20"),
                 ("y", "2"),
                 ("width", "380"),
                 ("height", "14"),
@@ -226,7 +226,7 @@ fn legend(w: &mut Writer, scale: f32) {
             |_| {},
         );
         for i in 0..=4_u8 {
-            let x = (10 + 95 * u32::from(i)).to_string();
+            let x = (20 + 95 * u32::from(i)).to_string();
             w.element(
                 "path",
                 &[("class", "axis"), ("d", &format!("M{x} 16v4"))],
