@@ -19,6 +19,9 @@ struct Frame {
     far: f32,                           // metres
     light_count: u32,
     frame_index: u32,
+    history_frames: u32,                // frames that history targets hold; 0: they hold zeros
+    padding: u32,
+    previous_view_projection: mat4x4f,  // world to clip, in the frame before
 }
 
 // One object. The rows of its affine world matrix are kept, since 3 × 4 packs without padding.

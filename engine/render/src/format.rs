@@ -7,33 +7,46 @@ use wgpu::TextureFormat;
 pub struct Format(pub TextureFormat);
 
 /// Every format that a target may have.
-const FORMATS: [TextureFormat; 27] = [
+const FORMATS: [TextureFormat; 40] = [
     TextureFormat::R8Unorm,
+    TextureFormat::R8Snorm,
     TextureFormat::R8Uint,
+    TextureFormat::R8Sint,
     TextureFormat::Rg8Unorm,
+    TextureFormat::Rg8Snorm,
     TextureFormat::Rg8Uint,
+    TextureFormat::Rg8Sint,
     TextureFormat::Rgba8Unorm,
     TextureFormat::Rgba8UnormSrgb,
+    TextureFormat::Rgba8Snorm,
     TextureFormat::Rgba8Uint,
+    TextureFormat::Rgba8Sint,
     TextureFormat::Bgra8Unorm,
     TextureFormat::Rgb10a2Unorm,
     TextureFormat::Rgb10a2Uint,
     TextureFormat::Rg11b10Ufloat,
     TextureFormat::R16Uint,
+    TextureFormat::R16Sint,
     TextureFormat::R16Float,
     TextureFormat::Rg16Uint,
+    TextureFormat::Rg16Sint,
     TextureFormat::Rg16Float,
     TextureFormat::Rgba16Uint,
+    TextureFormat::Rgba16Sint,
     TextureFormat::Rgba16Float,
     TextureFormat::R32Uint,
     TextureFormat::R32Float,
+    TextureFormat::R32Sint,
     TextureFormat::Rg32Uint,
+    TextureFormat::Rg32Sint,
     TextureFormat::Rg32Float,
     TextureFormat::Rgba32Uint,
+    TextureFormat::Rgba32Sint,
     TextureFormat::Rgba32Float,
     TextureFormat::Depth16Unorm,
     TextureFormat::Depth24Plus,
     TextureFormat::Depth32Float,
+    TextureFormat::Depth24PlusStencil8,
     TextureFormat::Depth32FloatStencil8,
 ];
 
@@ -44,6 +57,19 @@ impl Format {
             .into_iter()
             .map(Self)
             .find(|format| format.name() == name)
+    }
+
+    /// The format that Rust calls so, as in `Rgba16Float`.
+    pub(crate) fn from_rust_name(name: &str) -> Option<Self> {
+        FORMATS
+            .into_iter()
+            .find(|format| format!("{format:?}") == name)
+            .map(Self)
+    }
+
+    /// Whether it holds stencil.
+    pub fn has_stencil(self) -> bool {
+        self.0.has_stencil_aspect()
     }
 
     /// The names of all formats.
@@ -58,6 +84,7 @@ impl Format {
             .to_lowercase()
             .replace("unormsrgb", "unorm-srgb")
             .replace("floatstencil8", "float-stencil8")
+            .replace("plusstencil8", "plus-stencil8")
     }
 
     /// Whether it holds depth.
@@ -69,6 +96,7 @@ impl Format {
     pub fn bytes_per_texel(self) -> u32 {
         match self.0 {
             TextureFormat::Depth24Plus => 4,
+            TextureFormat::Depth24PlusStencil8 => 4,
             TextureFormat::Depth32FloatStencil8 => 8,
             format => format.block_copy_size(None).unwrap_or(4),
         }

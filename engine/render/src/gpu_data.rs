@@ -31,8 +31,12 @@ pub struct FrameData {
     pub light_count: u32,
     /// Frames since the renderer began.
     pub frame_index: u32,
+    /// Frames whose results `history` targets hold; 0: they hold zeros.
+    pub history_frames: u32,
     /// Fills the structure to 16 bytes.
-    pub padding: [u32; 2],
+    pub padding: u32,
+    /// World to clip in the frame before.
+    pub previous_view_projection: Mat4,
 }
 
 /// One object; `Instance` in WGSL.
@@ -206,6 +210,11 @@ mod tests {
                 ("far", offset_of!(FrameData, far)),
                 ("light_count", offset_of!(FrameData, light_count)),
                 ("frame_index", offset_of!(FrameData, frame_index)),
+                ("history_frames", offset_of!(FrameData, history_frames)),
+                (
+                    "previous_view_projection",
+                    offset_of!(FrameData, previous_view_projection),
+                ),
             ],
         );
         check::<InstanceData>(

@@ -193,6 +193,13 @@ impl Inspector {
         self.picture.as_ref()
     }
 
+    /// Whether it looks at a target after this pass, which then must run.
+    pub fn wants(&self, pass: usize) -> bool {
+        self.request
+            .as_ref()
+            .is_some_and(|request| request.pass == pass)
+    }
+
     /// Draws the picture if `pass` is the one to look at; called between passes.
     pub fn after_pass(
         &mut self,

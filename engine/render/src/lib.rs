@@ -5,6 +5,7 @@
 //! the GPU, [`record`] runs the passes. [`Renderer`] joins them.
 #![warn(missing_docs)]
 
+mod attachments;
 pub mod binding;
 pub mod compile;
 pub mod description;
@@ -14,7 +15,9 @@ pub mod gpu;
 pub mod gpu_data;
 pub mod inspect;
 pub mod layout;
+pub mod life;
 mod needs;
+mod parameters;
 pub mod pipeline;
 pub mod problem;
 pub mod queries;

@@ -47,7 +47,7 @@ impl PipelineDesc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::{ColorAttachment, Load, PassDesc, PassKind, TargetDesc, TargetSize};
+    use crate::description::{ColorAttachment, PassDesc, PassKind, TargetDesc};
     use crate::{Format, Place};
 
     /// One pass that draws to a target of that format.
@@ -55,25 +55,13 @@ mod tests {
         let format = Format::from_name(format).unwrap_or(Format(wgpu::TextureFormat::R8Uint));
         let at = Place::default();
         let desc = PipelineDesc {
-            targets: vec![TargetDesc {
-                name: "hdr".into(),
-                at: at.clone(),
-                format,
-                size: TargetSize::Relative(1.0),
-            }],
+            targets: vec![TargetDesc::new("hdr", at.clone(), format)],
             passes: vec![PassDesc {
-                name: "light".into(),
-                at: at.clone(),
-                kind: PassKind::Fullscreen,
-                shader: None,
-                reads: Vec::new(),
                 colors: vec![ColorAttachment {
-                    target: "hdr".into(),
-                    at,
-                    load: Load::Keep,
                     blend,
+                    ..ColorAttachment::new("hdr", at.clone())
                 }],
-                depth: None,
+                ..PassDesc::new("light", at.clone(), PassKind::Fullscreen)
             }],
             ..PipelineDesc::default()
         };

@@ -1,21 +1,43 @@
 //! A compiled pipeline: what [`crate::compile::Compiler`] builds and [`crate::record`] runs.
 
-use crate::binding::Source;
+use crate::attachments::Attachments;
+use crate::binding::{EngineBuffer, Source};
 use crate::compile::DrawPipeline;
-use crate::description::PipelineDesc;
+use crate::description::{Amount, Dispatch, Lights, PassDesc, PassKind, PipelineDesc};
+use crate::frame::ListKey;
 use crate::gpu::Gpu;
-use crate::reflection::{ParameterMember, SampleKind};
+use crate::life::Lives;
+use crate::parameters::ParameterBlock;
+use crate::queries::Measured;
 use crate::targets::Targets;
 
 /// The GPU pipelines of a pass.
 #[derive(Debug)]
 pub enum PassPipelines {
+    /// The pass needs none: it clears, copies or resolves.
+    None,
     /// By [`crate::variant::Variant::index`].
     Geometry(Vec<DrawPipeline>),
     /// By case.
     Lights(LightPipelines),
     /// One triangle.
     Fullscreen(wgpu::RenderPipeline),
+    /// A dispatch.
+    Compute {
+        /// The pipeline.
+        pipeline: wgpu::ComputePipeline,
+        /// Its workgroup size.
+        workgroup: [u32; 3],
+    },
+    /// One triangle a mip level.
+    Mips {
+        /// The pipeline.
+        pipeline: wgpu::RenderPipeline,
+        /// Layout of the group that holds the larger level.
+        layout: wgpu::BindGroupLayout,
+        /// For each level but the first: the view to draw to and the group to read from.
+        levels: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
+    },
 }
 
 /// The three ways in which a light's volume is drawn.
@@ -29,85 +51,28 @@ pub struct LightPipelines {
     pub screen: DrawPipeline,
 }
 
-/// The uniform buffer behind a shader's `parameters`.
-#[derive(Debug)]
-pub struct ParameterBlock {
-    /// The layout of group 2.
-    pub layout: wgpu::BindGroupLayout,
-    /// Group 2.
-    pub group: wgpu::BindGroup,
-    buffer: wgpu::Buffer,
-    members: Vec<ParameterMember>,
-    bytes: Vec<u8>,
-    uploaded: bool,
+/// Buffers of the engine that passes may bind.
+#[derive(Clone, Copy, Debug)]
+pub struct EngineBuffers<'a> {
+    /// Vertex positions of all meshes.
+    pub mesh_positions: &'a wgpu::Buffer,
+    /// The rest of the vertices.
+    pub mesh_attributes: &'a wgpu::Buffer,
+    /// Indices of all meshes.
+    pub mesh_indices: &'a wgpu::Buffer,
+    /// Views of `shadow` passes.
+    pub shadow_views: &'a wgpu::Buffer,
+    /// Differs where one of the buffers is another than before.
+    pub revision: u64,
 }
 
-impl ParameterBlock {
-    /// A block of `size` bytes.
-    pub fn new(gpu: &Gpu, members: Vec<ParameterMember>, size: u32) -> Self {
-        let layout = gpu
-            .device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some("parameters"),
-                entries: &[wgpu::BindGroupLayoutEntry {
-                    binding: 0,
-                    visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                    ty: wgpu::BindingType::Buffer {
-                        ty: wgpu::BufferBindingType::Uniform,
-                        has_dynamic_offset: false,
-                        min_binding_size: None,
-                    },
-                    count: None,
-                }],
-            });
-        let size = size.next_multiple_of(16);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("parameters"),
-            size: u64::from(size),
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("parameters"),
-            layout: &layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: buffer.as_entire_binding(),
-            }],
-        });
-        Self {
-            layout,
-            group,
-            buffer,
-            members,
-            bytes: vec![0; size as usize],
-            uploaded: false,
-        }
-    }
-
-    /// Writes the values in force, if they differ from those on the device.
-    pub fn upload(&mut self, gpu: &Gpu, desc: &PipelineDesc) {
-        let mut changed = !self.uploaded;
-        for member in &self.members {
-            let Some(parameter) = desc.parameter(&member.name) else {
-                continue;
-            };
-            let value = parameter.shader_value();
-            let bytes = match member.kind {
-                Some(SampleKind::Float) => (value as f32).to_le_bytes(),
-                _ => (value as u32).to_le_bytes(),
-            };
-            let at = member.offset as usize;
-            if let Some(place) = self.bytes.get_mut(at..at + 4)
-                && *place != bytes
-            {
-                place.copy_from_slice(&bytes);
-                changed = true;
-            }
-        }
-        if changed {
-            gpu.queue.write_buffer(&self.buffer, 0, &self.bytes);
-            self.uploaded = true;
+impl EngineBuffers<'_> {
+    fn get(&self, which: EngineBuffer) -> &wgpu::Buffer {
+        match which {
+            EngineBuffer::MeshPositions => self.mesh_positions,
+            EngineBuffer::MeshAttributes => self.mesh_attributes,
+            EngineBuffer::MeshIndices => self.mesh_indices,
+            EngineBuffer::ShadowViews => self.shadow_views,
         }
     }
 }
@@ -125,6 +90,12 @@ pub struct CompiledPass {
     pub target_group: Option<wgpu::BindGroup>,
     /// Group 2.
     pub parameters: Option<ParameterBlock>,
+    /// Views of what it draws to, for the current targets.
+    pub attachments: Attachments,
+    /// Workgroups of a compute pass along x, y and z.
+    pub workgroups: [u32; 3],
+    /// Which of the frame's lists of objects or lights the pass draws.
+    pub list: Option<usize>,
 }
 
 impl CompiledPass {
@@ -141,34 +112,41 @@ impl CompiledPass {
             target_layout,
             target_group: None,
             parameters,
+            attachments: Attachments::default(),
+            workgroups: [1; 3],
+            list: None,
         }
     }
 
-    /// Binds the targets that the pass reads.
-    fn bind_targets(&mut self, gpu: &Gpu, targets: &Targets) {
+    /// Binds what the pass reads and writes.
+    fn bind(&mut self, gpu: &Gpu, desc: &PassDesc, targets: &Targets, engine: EngineBuffers<'_>) {
+        self.attachments = Attachments::new(desc, targets);
+        self.workgroups = workgroups(desc, &self.pipelines, targets);
+        self.bind_levels(gpu, desc, targets);
         let Some(layout) = &self.target_layout else {
             return;
         };
-        let sampler = |filter| {
-            gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("targets"),
-                mag_filter: filter,
-                min_filter: filter,
-                ..Default::default()
-            })
-        };
-        let linear = sampler(wgpu::FilterMode::Linear);
-        let nearest = sampler(wgpu::FilterMode::Nearest);
+        // Views must live until the group is made.
+        let views: Vec<_> = self
+            .sources
+            .iter()
+            .map(|(_, source)| view(source, targets))
+            .collect();
+        let samplers = Samplers::new(gpu);
         let entries: Vec<_> = self
             .sources
             .iter()
-            .filter_map(|(binding, source)| {
+            .zip(&views)
+            .filter_map(|((binding, source), view)| {
                 let resource = match source {
-                    Source::Target { target, .. } => {
-                        wgpu::BindingResource::TextureView(&targets.get(target)?.sampled)
+                    Source::Target { .. } | Source::StorageTexture { .. } => {
+                        wgpu::BindingResource::TextureView(view.as_ref()?)
                     }
-                    Source::LinearSampler => wgpu::BindingResource::Sampler(&linear),
-                    Source::NearestSampler => wgpu::BindingResource::Sampler(&nearest),
+                    Source::Buffer { buffer, .. } => targets.buffer(buffer)?.as_entire_binding(),
+                    Source::Engine(which) => engine.get(*which).as_entire_binding(),
+                    Source::LinearSampler => wgpu::BindingResource::Sampler(&samplers.linear),
+                    Source::NearestSampler => wgpu::BindingResource::Sampler(&samplers.nearest),
+                    Source::ShadowSampler => wgpu::BindingResource::Sampler(&samplers.shadow),
                 };
                 Some(wgpu::BindGroupEntry {
                     binding: *binding,
@@ -182,6 +160,132 @@ impl CompiledPass {
             entries: &entries,
         }));
     }
+
+    /// The views and groups of a `mips` pass.
+    fn bind_levels(&mut self, gpu: &Gpu, desc: &PassDesc, targets: &Targets) {
+        let (PassPipelines::Mips { layout, levels, .. }, PassKind::Mips { target, .. }) =
+            (&mut self.pipelines, &desc.kind)
+        else {
+            return;
+        };
+        levels.clear();
+        let Some(target) = targets.get(&target.target) else {
+            return;
+        };
+        for layer in 0..target.shape.layers() {
+            for mip in 1..target.texture.mip_level_count() {
+                let larger =
+                    target.readable(wgpu::TextureViewDimension::D2, Some(mip - 1), Some(layer));
+                let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("mips"),
+                    layout,
+                    entries: &[wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: wgpu::BindingResource::TextureView(&larger),
+                    }],
+                });
+                let slice = crate::description::Slice { mip, layer };
+                levels.push((target.attachment(slice), group));
+            }
+        }
+    }
+}
+
+/// Where a value is in a list, to which it is added if it is not there.
+fn position<T: PartialEq>(list: &mut Vec<T>, value: T) -> usize {
+    let known = list.iter().position(|other| *other == value);
+    known.unwrap_or_else(|| {
+        list.push(value);
+        list.len() - 1
+    })
+}
+
+fn view(source: &Source, targets: &Targets) -> Option<wgpu::TextureView> {
+    match source {
+        Source::Target {
+            target,
+            texture,
+            mip,
+            layer,
+        } => Some(
+            targets
+                .get(target)?
+                .readable(texture.dimension, *mip, *layer),
+        ),
+        Source::StorageTexture {
+            target,
+            dimension,
+            slice,
+            ..
+        } => {
+            let flat = *dimension == wgpu::TextureViewDimension::D2;
+            let layer = flat.then_some(slice.layer);
+            Some(
+                targets
+                    .get(target)?
+                    .readable(*dimension, Some(slice.mip), layer),
+            )
+        }
+        _ => None,
+    }
+}
+
+struct Samplers {
+    linear: wgpu::Sampler,
+    nearest: wgpu::Sampler,
+    shadow: wgpu::Sampler,
+}
+
+impl Samplers {
+    fn new(gpu: &Gpu) -> Self {
+        let sampler = |filter, compare| {
+            gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("targets"),
+                mag_filter: filter,
+                min_filter: filter,
+                compare,
+                ..Default::default()
+            })
+        };
+        Self {
+            linear: sampler(wgpu::FilterMode::Linear, None),
+            nearest: sampler(wgpu::FilterMode::Nearest, None),
+            shadow: sampler(
+                wgpu::FilterMode::Linear,
+                Some(wgpu::CompareFunction::GreaterEqual),
+            ),
+        }
+    }
+}
+
+/// Workgroups of a compute pass for the current targets.
+fn workgroups(desc: &PassDesc, pipelines: &PassPipelines, targets: &Targets) -> [u32; 3] {
+    let (PassKind::Compute(dispatch), PassPipelines::Compute { workgroup, .. }) =
+        (&desc.kind, pipelines)
+    else {
+        return [1; 3];
+    };
+    let amount = |amount: &Amount| match amount {
+        Amount::Texels { target, mip } => targets.get(target).map_or([1; 3], |target| {
+            let (width, height) = target.mip_size(*mip);
+            [width, height, target.shape.layers()]
+        }),
+        Amount::Tiles { tile, depth } => {
+            let size = crate::description::TargetSize::Tiles(*tile);
+            let (columns, rows) = size.resolve(targets.size.0, targets.size.1);
+            [columns, rows, *depth]
+        }
+        Amount::Lights => [targets.lights, 1, 1],
+        Amount::Fixed(x, y, z) => [*x, *y, *z],
+    };
+    match dispatch {
+        Dispatch::Groups(groups) => amount(groups),
+        Dispatch::Threads(threads) => {
+            let threads = amount(threads);
+            [0, 1, 2].map(|axis| threads[axis].div_ceil(workgroup[axis].max(1)))
+        }
+        Dispatch::Indirect { .. } => [1; 3],
+    }
 }
 
 /// A pipeline that can draw.
@@ -191,15 +295,41 @@ pub struct Pipeline {
     pub desc: PipelineDesc,
     /// In the order of the description.
     pub(crate) passes: Vec<CompiledPass>,
+    /// The lists of objects that its geometry passes need, each once.
+    pub(crate) lists: Vec<ListKey>,
+    /// The lists of lights that its lights passes need, each once.
+    pub(crate) light_lists: Vec<Lights>,
+    lives: Lives,
     targets: Option<Targets>,
+    engine_revision: u64,
+    share_textures: bool,
+    history_frames: u32,
+    last_frame: Option<u32>,
+    /// Words that each buffer must have at least, as counters said.
+    grown: Vec<u64>,
 }
 
 impl Pipeline {
-    pub(crate) fn new(desc: PipelineDesc, passes: Vec<CompiledPass>) -> Self {
+    pub(crate) fn new(desc: PipelineDesc, mut passes: Vec<CompiledPass>) -> Self {
+        let (mut lists, mut light_lists) = (Vec::new(), Vec::new());
+        for (pass, compiled) in desc.passes.iter().zip(&mut passes) {
+            compiled.list = match &pass.kind {
+                PassKind::Lights(lights) => Some(position(&mut light_lists, lights.clone())),
+                _ => ListKey::of(pass).map(|key| position(&mut lists, key)),
+            };
+        }
         Self {
+            lives: Lives::of(&desc),
+            grown: vec![0; desc.buffers.len()],
             desc,
             passes,
+            lists,
+            light_lists,
             targets: None,
+            engine_revision: 0,
+            share_textures: true,
+            history_frames: 0,
+            last_frame: None,
         }
     }
 
@@ -208,17 +338,24 @@ impl Pipeline {
         self.targets.as_ref()
     }
 
-    /// Whether some pass wants the lights gathered object by object.
-    pub fn gathers_lights(&self) -> bool {
-        self.desc.passes.iter().any(|pass| {
-            matches!(
-                pass.kind,
-                crate::description::PassKind::Geometry {
-                    gather_lights: true,
-                    ..
-                }
-            )
-        })
+    /// Which passes run: the others' results reach neither the picture nor a counter.
+    pub fn lives(&self) -> &Lives {
+        &self.lives
+    }
+
+    /// Gives each target a texture of its own, so that all can be read after the frame; or lets
+    /// targets share textures again, which is how a pipeline begins.
+    pub fn keep_all_targets(&mut self, keep: bool) {
+        if self.share_textures == keep {
+            self.share_textures = !keep;
+            self.targets = None;
+        }
+    }
+
+    /// Frames whose results `history` targets hold; 0 in the first frame and after a change of
+    /// size.
+    pub fn history_frames(&self) -> u32 {
+        self.history_frames
     }
 
     /// Takes over parameter values from a description of the same structure.
@@ -232,25 +369,104 @@ impl Pipeline {
         same
     }
 
-    /// Makes targets, bindings and parameters ready for a frame of that size.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, size: (u32, u32)) -> &Targets {
-        if self
-            .targets
-            .as_ref()
-            .is_none_or(|targets| targets.size != size)
-        {
-            let targets = Targets::new(gpu, &self.desc, size);
-            for pass in &mut self.passes {
-                pass.bind_targets(gpu, &targets);
+    /// Makes room where a counter asked for more words than its buffer has, and says whether it
+    /// did: then the frame should be drawn again.
+    pub fn grow(&mut self, measured: &[Measured]) -> bool {
+        let Some(targets) = &self.targets else {
+            return false;
+        };
+        let mut outgrown = false;
+        for (index, buffer) in self.desc.buffers.iter().enumerate() {
+            let Some(by) = &buffer.grows_with else {
+                continue;
+            };
+            let counter = self.desc.counters.iter().position(|c| c.name == by.name);
+            let wanted = counter.and_then(|counter| {
+                let counts = measured.iter().filter_map(|m| m.counters.get(counter));
+                counts.max().copied()
+            });
+            let has = targets.buffer(&buffer.name).map_or(0, |b| b.size() / 4);
+            if let Some(wanted) = wanted.map(u64::from).filter(|wanted| *wanted > has) {
+                // Half as much again, so that a scene that grows slowly does not do so each frame.
+                self.grown[index] = wanted + wanted / 2;
+                outgrown = true;
             }
-            self.targets = Some(targets);
+        }
+        if outgrown {
+            self.targets = None;
+        }
+        outgrown
+    }
+
+    /// Makes targets, bindings and parameters ready for a frame of that size and that number of
+    /// lights.
+    pub(crate) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        engine: EngineBuffers<'_>,
+        size: (u32, u32),
+        lights: u32,
+        frame: u32,
+    ) -> &Targets {
+        let depends_on_lights = self.depends_on_lights();
+        let fits = |targets: &Targets| {
+            targets.size == size && (lights <= targets.lights || !depends_on_lights)
+        };
+        let fresh = self.targets.take().filter(fits);
+        let same_engine = self.engine_revision == engine.revision;
+        let followed = self
+            .last_frame
+            .is_some_and(|last| last.wrapping_add(1) == frame);
+        if fresh.is_none() || !followed {
+            self.history_frames = 0;
+        } else {
+            self.history_frames = self.history_frames.saturating_add(1);
+        }
+        self.last_frame = Some(frame);
+        let rebind = fresh.is_none() || !same_engine;
+        let targets = fresh.unwrap_or_else(|| {
+            let room = if depends_on_lights {
+                lights.next_power_of_two()
+            } else {
+                lights
+            };
+            let words: Vec<u64> = self
+                .desc
+                .buffers
+                .iter()
+                .zip(&self.grown)
+                .map(|(buffer, grown)| buffer.size.resolve(size, room).max(*grown))
+                .collect();
+            let lives = self.share_textures.then_some(&self.lives);
+            Targets::new(gpu, &self.desc, lives, size, room, &words)
+        });
+        if rebind {
+            for (desc, pass) in self.desc.passes.iter().zip(&mut self.passes) {
+                pass.bind(gpu, desc, &targets, engine);
+            }
+            self.engine_revision = engine.revision;
         }
         for pass in &mut self.passes {
             if let Some(parameters) = &mut pass.parameters {
                 parameters.upload(gpu, &self.desc);
             }
         }
-        self.targets
-            .get_or_insert_with(|| Targets::new(gpu, &self.desc, size))
+        self.targets.insert(targets)
+    }
+
+    /// Whether a buffer or a dispatch is sized by the number of lights.
+    fn depends_on_lights(&self) -> bool {
+        let buffers = self.desc.buffers.iter();
+        buffers
+            .map(|buffer| buffer.size)
+            .any(|size| matches!(size, crate::description::BufferSize::PerLight(_)))
+            || self.desc.passes.iter().any(|pass| {
+                matches!(
+                    pass.kind,
+                    PassKind::Compute(
+                        Dispatch::Threads(Amount::Lights) | Dispatch::Groups(Amount::Lights)
+                    )
+                )
+            })
     }
 }

@@ -18,31 +18,93 @@ const RING: usize = 4;
 /// Bytes of one query result; resolves must be aligned to 256.
 const RESULT: u64 = 8;
 const STATISTICS_AT: u64 = MAX_PASSES as u64 * 2 * RESULT;
-const BYTES: u64 = STATISTICS_AT + MAX_PASSES as u64 * RESULT;
+/// Results of one statistics query: vertex and fragment invocations.
+const STATISTICS: u64 = 2;
+const COUNTERS_AT: u64 = STATISTICS_AT + MAX_PASSES as u64 * STATISTICS * RESULT;
+/// Counters that a pipeline may have.
+pub const MAX_COUNTERS: usize = 16;
+const BYTES: u64 = COUNTERS_AT + MAX_COUNTERS as u64 * 4;
 
 const IDLE: u8 = 0;
 const IN_FLIGHT: u8 = 1;
 const READY: u8 = 2;
 const FAILED: u8 = 3;
 
+/// What can be measured of a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Nothing: the pass does not run, or only copies.
+    Nothing,
+    /// Its time.
+    Time,
+    /// Its time, vertices and fragments.
+    TimeAndInvocations,
+}
+
 /// What the queries of one frame measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {
     /// The frame that it belongs to.
     pub frame: u32,
-    /// Milliseconds per pass; empty without timestamps.
+    /// Milliseconds per pass, 0 for passes without a time; empty without timestamps.
     pub gpu_ms: Vec<f64>,
     /// Milliseconds from the first pass's beginning to the last one's end.
     pub total_ms: Option<f64>,
     /// Fragments per pass; empty without pipeline statistics.
     pub fragments: Vec<u64>,
+    /// Vertices that vertex stages ran for, per pass; empty without pipeline statistics.
+    pub vertices: Vec<u64>,
+    /// The pipeline's counters, in the order of their declarations.
+    pub counters: Vec<u32>,
+}
+
+/// Where the results of a pass lie in the query sets. Only queries that are written may be
+/// resolved, so passes that are not measured have none.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    time: Option<u32>,
+    invocations: Option<u32>,
+}
+
+/// What one frame measures.
+#[derive(Clone, Debug, Default)]
+struct Plan {
+    places: Vec<Place>,
+    times: u32,
+    invocations: u32,
+    counters: usize,
+}
+
+impl Plan {
+    /// Takes the memory of an older plan.
+    fn set(&mut self, passes: impl Iterator<Item = Measure>, counters: usize) {
+        self.places.clear();
+        (self.times, self.invocations) = (0, 0);
+        self.counters = counters.min(MAX_COUNTERS);
+        for measure in passes {
+            let next = |count: &mut u32, wanted: bool| {
+                (wanted && *count < MAX_PASSES).then(|| {
+                    *count += 1;
+                    *count - 1
+                })
+            };
+            let place = Place {
+                time: next(&mut self.times, measure != Measure::Nothing),
+                invocations: next(
+                    &mut self.invocations,
+                    measure == Measure::TimeAndInvocations,
+                ),
+            };
+            self.places.push(place);
+        }
+    }
 }
 
 struct Slot {
     buffer: wgpu::Buffer,
     state: Arc<AtomicU8>,
     frame: u32,
-    passes: u32,
+    plan: Plan,
 }
 
 /// The query sets of a device.
@@ -74,7 +136,8 @@ impl Queries {
                 mapped_at_creation: false,
             })
         };
-        let invocations = PipelineStatisticsTypes::FRAGMENT_SHADER_INVOCATIONS;
+        let invocations = PipelineStatisticsTypes::VERTEX_SHADER_INVOCATIONS
+            | PipelineStatisticsTypes::FRAGMENT_SHADER_INVOCATIONS;
         Self {
             timestamps: features
                 .contains(Features::TIMESTAMP_QUERY)
@@ -88,7 +151,7 @@ impl Queries {
                     buffer: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
                     state: Arc::new(AtomicU8::new(IDLE)),
                     frame: 0,
-                    passes: 0,
+                    plan: Plan::default(),
                 })
                 .collect(),
             current: None,
@@ -96,43 +159,95 @@ impl Queries {
         }
     }
 
-    /// Begins a frame of `passes` passes. Without a free buffer the frame is not measured.
-    pub fn begin(&mut self, frame: u32, passes: usize) {
-        let measurable = self.timestamps.is_some() || self.statistics.is_some();
+    /// Begins a frame. Without a free buffer the frame is not measured.
+    pub fn begin(&mut self, frame: u32, passes: impl Iterator<Item = Measure>, counters: usize) {
+        let measurable = self.timestamps.is_some() || self.statistics.is_some() || counters > 0;
         let free = self
             .ring
             .iter()
             .position(|slot| slot.state.load(Ordering::Acquire) == IDLE);
-        self.current = free.filter(|_| measurable && passes <= MAX_PASSES as usize);
+        self.current = free.filter(|_| measurable);
         if let Some(slot) = self.current.and_then(|index| self.ring.get_mut(index)) {
             slot.frame = frame;
-            slot.passes = passes as u32;
+            slot.plan.set(passes, counters);
         }
+    }
+
+    fn place(&self, pass: usize) -> Option<Place> {
+        let slot = self.ring.get(self.current?)?;
+        slot.plan.places.get(pass).copied()
+    }
+
+    /// Where a compute pass writes its two timestamps.
+    pub fn compute_timestamps(&self, pass: usize) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        self.timestamps(pass)
+            .map(|writes| wgpu::ComputePassTimestampWrites {
+                query_set: writes.query_set,
+                beginning_of_pass_write_index: writes.beginning_of_pass_write_index,
+                end_of_pass_write_index: writes.end_of_pass_write_index,
+            })
+    }
+
+    /// As [`Queries::timestamps`] for a pass that consists of several render passes: the first one
+    /// writes the beginning, the last one the end.
+    pub fn span(
+        &self,
+        pass: usize,
+        part: usize,
+        parts: usize,
+    ) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        let mut writes = self.timestamps(pass)?;
+        writes.beginning_of_pass_write_index =
+            writes.beginning_of_pass_write_index.filter(|_| part == 0);
+        writes.end_of_pass_write_index =
+            writes.end_of_pass_write_index.filter(|_| part + 1 == parts);
+        let some = writes.beginning_of_pass_write_index.is_some()
+            || writes.end_of_pass_write_index.is_some();
+        some.then_some(writes)
     }
 
     /// Where a pass writes its two timestamps.
     pub fn timestamps(&self, pass: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        self.current?;
+        let at = self.place(pass)?.time?;
         self.timestamps
             .as_ref()
             .map(|query_set| wgpu::RenderPassTimestampWrites {
                 query_set,
-                beginning_of_pass_write_index: Some(pass as u32 * 2),
-                end_of_pass_write_index: Some(pass as u32 * 2 + 1),
+                beginning_of_pass_write_index: Some(at * 2),
+                end_of_pass_write_index: Some(at * 2 + 1),
             })
     }
 
-    /// Begins counting a pass's fragments.
+    /// Begins counting a pass's vertices and fragments.
     pub fn begin_statistics(&self, pass: usize, render_pass: &mut wgpu::RenderPass<'_>) {
-        if let (Some(set), Some(_)) = (&self.statistics, self.current) {
-            render_pass.begin_pipeline_statistics_query(set, pass as u32);
+        let at = self.place(pass).and_then(|place| place.invocations);
+        if let (Some(set), Some(at)) = (&self.statistics, at) {
+            render_pass.begin_pipeline_statistics_query(set, at);
         }
     }
 
     /// Ends counting.
-    pub fn end_statistics(&self, render_pass: &mut wgpu::RenderPass<'_>) {
-        if self.statistics.is_some() && self.current.is_some() {
+    pub fn end_statistics(&self, pass: usize, render_pass: &mut wgpu::RenderPass<'_>) {
+        let at = self.place(pass).and_then(|place| place.invocations);
+        if self.statistics.is_some() && at.is_some() {
             render_pass.end_pipeline_statistics_query();
+        }
+    }
+
+    /// Copies one counter's word to the frame's results.
+    pub fn counter(
+        &self,
+        counter: usize,
+        buffer: &wgpu::Buffer,
+        word: u32,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
+        let at = u64::from(word) * 4;
+        let slot = self.current.and_then(|index| self.ring.get(index));
+        let fits = |slot: &&Slot| counter < slot.plan.counters && at + 4 <= buffer.size();
+        if let Some(slot) = slot.filter(fits) {
+            let to = COUNTERS_AT + counter as u64 * 4;
+            encoder.copy_buffer_to_buffer(buffer, at, &slot.buffer, to, 4);
         }
     }
 
@@ -141,17 +256,23 @@ impl Queries {
         let Some(slot) = self.current.and_then(|index| self.ring.get(index)) else {
             return;
         };
-        if slot.passes == 0 {
+        let Plan {
+            times,
+            invocations,
+            counters,
+            ..
+        } = slot.plan;
+        if times == 0 && counters == 0 {
             self.current = None;
             return;
         }
-        if let Some(set) = &self.timestamps {
-            encoder.resolve_query_set(set, 0..slot.passes * 2, &self.resolve, 0);
+        if let Some(set) = self.timestamps.as_ref().filter(|_| times > 0) {
+            encoder.resolve_query_set(set, 0..times * 2, &self.resolve, 0);
         }
-        if let Some(set) = &self.statistics {
-            encoder.resolve_query_set(set, 0..slot.passes, &self.resolve, STATISTICS_AT);
+        if let Some(set) = self.statistics.as_ref().filter(|_| invocations > 0) {
+            encoder.resolve_query_set(set, 0..invocations, &self.resolve, STATISTICS_AT);
         }
-        encoder.copy_buffer_to_buffer(&self.resolve, 0, &slot.buffer, 0, BYTES);
+        encoder.copy_buffer_to_buffer(&self.resolve, 0, &slot.buffer, 0, COUNTERS_AT);
     }
 
     /// Asks for the results; call it after the frame was submitted.
@@ -191,28 +312,49 @@ impl Queries {
     }
 
     fn read(&self, slot: &Slot, bytes: &[u8]) -> Measured {
-        let value = |at: u64| {
+        let long = |at: u64| {
             let at = at as usize;
             let bytes = bytes
                 .get(at..at + 8)
                 .and_then(|bytes| bytes.try_into().ok());
             bytes.map_or(0, u64::from_le_bytes)
         };
-        let stamp = |index: u32| value(u64::from(index) * RESULT);
+        let word = |at: u64| {
+            let at = at as usize;
+            let bytes = bytes
+                .get(at..at + 4)
+                .and_then(|bytes| bytes.try_into().ok());
+            bytes.map_or(0, u32::from_le_bytes)
+        };
+        let stamp = |index: u32| long(u64::from(index) * RESULT);
         let ms = |from: u64, to: u64| to.saturating_sub(from) as f64 * self.period_ns * 1e-6;
+        let plan = &slot.plan;
+        let statistic = |which: u64| -> Vec<u64> {
+            let places = plan.places.iter().filter(|_| self.statistics.is_some());
+            places
+                .map(|place| {
+                    place.invocations.map_or(0, |at| {
+                        long(STATISTICS_AT + (u64::from(at) * STATISTICS + which) * RESULT)
+                    })
+                })
+                .collect()
+        };
         let timed = self.timestamps.is_some();
-        let passes = 0..slot.passes;
+        let places = plan.places.iter().filter(|_| timed);
         Measured {
             frame: slot.frame,
-            gpu_ms: passes
-                .clone()
-                .filter(|_| timed)
-                .map(|p| ms(stamp(p * 2), stamp(p * 2 + 1)))
+            gpu_ms: places
+                .map(|place| {
+                    place
+                        .time
+                        .map_or(0.0, |at| ms(stamp(at * 2), stamp(at * 2 + 1)))
+                })
                 .collect(),
-            total_ms: timed.then(|| ms(stamp(0), stamp(slot.passes * 2 - 1))),
-            fragments: passes
-                .filter(|_| self.statistics.is_some())
-                .map(|p| value(STATISTICS_AT + u64::from(p) * RESULT))
+            total_ms: (timed && plan.times > 0).then(|| ms(stamp(0), stamp(plan.times * 2 - 1))),
+            vertices: statistic(0),
+            fragments: statistic(1),
+            counters: (0..plan.counters)
+                .map(|counter| word(COUNTERS_AT + counter as u64 * 4))
                 .collect(),
         }
     }

@@ -2,7 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use naga::{AddressSpace, Binding, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
+use naga::{
+    AddressSpace, Binding, ImageClass, ImageDimension, ScalarKind, ShaderStage, StorageAccess,
+    TypeInner,
+};
+
+use crate::description::{Shape, TargetDesc};
+use crate::format::Format;
 
 /// The kind of numbers in a texture or a fragment output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,13 +36,64 @@ impl SampleKind {
         }
     }
 
-    /// The WGSL texture type that reads it.
-    pub fn texture_type(self) -> &'static str {
+    /// In words, for messages.
+    pub fn in_words(self) -> &'static str {
         match self {
-            Self::Float => "texture_2d<f32>",
-            Self::Uint => "texture_2d<u32>",
-            Self::Sint => "texture_2d<i32>",
-            Self::Depth => "texture_depth_2d",
+            Self::Float => "floats",
+            Self::Uint => "unsigned integers",
+            Self::Sint => "signed integers",
+            Self::Depth => "depth",
+        }
+    }
+}
+
+/// The type of a texture variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureType {
+    /// What its texels are.
+    pub kind: SampleKind,
+    /// How they are arranged.
+    pub dimension: wgpu::TextureViewDimension,
+    /// Whether each texel has several samples.
+    pub multisampled: bool,
+}
+
+impl TextureType {
+    /// The type by which a shader reads a target, or one of its layers.
+    pub fn of_target(target: &TargetDesc, one_layer: bool) -> Self {
+        Self {
+            kind: SampleKind::of_format(target.format.0),
+            dimension: match target.shape {
+                _ if one_layer => wgpu::TextureViewDimension::D2,
+                Shape::Flat => wgpu::TextureViewDimension::D2,
+                Shape::Array(_) => wgpu::TextureViewDimension::D2Array,
+                Shape::Cube => wgpu::TextureViewDimension::Cube,
+                Shape::Volume(_) => wgpu::TextureViewDimension::D3,
+            },
+            multisampled: target.samples > 1,
+        }
+    }
+
+    /// As WGSL writes it: `texture_2d<f32>`.
+    pub fn in_wgsl(self) -> String {
+        let arranged = match self.dimension {
+            wgpu::TextureViewDimension::D1 => "1d",
+            wgpu::TextureViewDimension::D2 => "2d",
+            wgpu::TextureViewDimension::D2Array => "2d_array",
+            wgpu::TextureViewDimension::Cube => "cube",
+            wgpu::TextureViewDimension::CubeArray => "cube_array",
+            wgpu::TextureViewDimension::D3 => "3d",
+        };
+        let samples = if self.multisampled {
+            "multisampled_"
+        } else {
+            ""
+        };
+        match self.kind {
+            SampleKind::Depth => format!("texture_depth_{samples}{arranged}"),
+            SampleKind::Float => format!("texture_{samples}{arranged}<f32>"),
+            SampleKind::Uint => format!("texture_{samples}{arranged}<u32>"),
+            SampleKind::Sint => format!("texture_{samples}{arranged}<i32>"),
         }
     }
 }
@@ -44,10 +101,27 @@ impl SampleKind {
 /// What a variable of group 1 is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BindingKind {
-    /// A 2D texture.
-    Texture(SampleKind),
+    /// A texture that is read.
+    Texture(TextureType),
+    /// A texture that is written, or read, without filtering.
+    StorageTexture {
+        /// How its texels are arranged.
+        dimension: wgpu::TextureViewDimension,
+        /// The format that the shader declares.
+        format: Option<Format>,
+        /// Read, write or both.
+        access: wgpu::StorageTextureAccess,
+    },
+    /// A `var<storage>`.
+    Buffer {
+        /// Whether it is `read_write`.
+        writable: bool,
+    },
     /// A sampler.
-    Sampler,
+    Sampler {
+        /// Whether it compares depth.
+        comparison: bool,
+    },
     /// Something that passes can't bind; its WGSL type in words.
     Unsupported(&'static str),
 }
@@ -83,6 +157,12 @@ pub struct Reflection {
     pub has_vertex: bool,
     /// Whether there is a `fragment_main`.
     pub has_fragment: bool,
+    /// The workgroup size of `compute_main`, if there is one.
+    pub workgroup_size: Option<[u32; 3]>,
+    /// Names of all entry points, for suggestions.
+    pub entry_points: Vec<String>,
+    /// Locations that the vertex stage hands on, and those that the fragment stage takes.
+    pub varyings: (BTreeSet<u32>, BTreeSet<u32>),
     /// Locations that the vertex stage reads.
     pub vertex_inputs: BTreeSet<u32>,
     /// Location and kind of each fragment output, by location.
@@ -97,11 +177,14 @@ pub struct Reflection {
 pub const VERTEX_ENTRY: &str = "vertex_main";
 /// See [`VERTEX_ENTRY`].
 pub const FRAGMENT_ENTRY: &str = "fragment_main";
+/// See [`VERTEX_ENTRY`].
+pub const COMPUTE_ENTRY: &str = "compute_main";
 
 /// Reads a module.
 pub fn reflect(module: &naga::Module) -> Reflection {
     let mut reflection = Reflection::default();
     for entry in &module.entry_points {
+        reflection.entry_points.push(entry.name.clone());
         match entry.stage {
             ShaderStage::Vertex if entry.name == VERTEX_ENTRY => {
                 reflection.has_vertex = true;
@@ -115,9 +198,21 @@ pub fn reflect(module: &naga::Module) -> Reflection {
                         },
                     );
                 }
+                if let Some(result) = &entry.function.result {
+                    let binding = result.binding.as_ref();
+                    locations(module, result.ty, binding, &mut |location, _| {
+                        reflection.varyings.0.insert(location);
+                    });
+                }
             }
             ShaderStage::Fragment if entry.name == FRAGMENT_ENTRY => {
                 reflection.has_fragment = true;
+                for argument in &entry.function.arguments {
+                    let binding = argument.binding.as_ref();
+                    locations(module, argument.ty, binding, &mut |location, _| {
+                        reflection.varyings.1.insert(location);
+                    });
+                }
                 if let Some(result) = &entry.function.result {
                     locations(
                         module,
@@ -129,6 +224,9 @@ pub fn reflect(module: &naga::Module) -> Reflection {
                     );
                 }
                 reflection.outputs.sort_by_key(|(location, _)| *location);
+            }
+            ShaderStage::Compute if entry.name == COMPUTE_ENTRY => {
+                reflection.workgroup_size = Some(entry.workgroup_size);
             }
             _ => {}
         }
@@ -184,21 +282,59 @@ fn scalar_kind(kind: ScalarKind) -> Option<SampleKind> {
 fn binding_kind(inner: &TypeInner, space: AddressSpace) -> BindingKind {
     match inner {
         TypeInner::Image {
-            dim: ImageDimension::D2,
-            arrayed: false,
+            dim,
+            arrayed,
             class,
-        } => match class {
-            ImageClass::Sampled { kind, multi: false } => {
-                scalar_kind(*kind).map_or(BindingKind::Unsupported("texture"), BindingKind::Texture)
-            }
-            ImageClass::Depth { multi: false } => BindingKind::Texture(SampleKind::Depth),
-            ImageClass::Storage { .. } => BindingKind::Unsupported("storage texture"),
-            _ => BindingKind::Unsupported("multisampled texture"),
+        } => image_kind(*dim, *arrayed, *class),
+        TypeInner::Sampler { comparison } => BindingKind::Sampler {
+            comparison: *comparison,
         },
-        TypeInner::Image { .. } => BindingKind::Unsupported("texture that is not 2D"),
-        TypeInner::Sampler { .. } => BindingKind::Sampler,
-        _ if space == AddressSpace::Uniform => BindingKind::Unsupported("uniform buffer"),
-        _ => BindingKind::Unsupported("buffer"),
+        _ => match space {
+            AddressSpace::Storage { access } => BindingKind::Buffer {
+                writable: access.contains(StorageAccess::STORE),
+            },
+            AddressSpace::Uniform => BindingKind::Unsupported("uniform buffer"),
+            _ => BindingKind::Unsupported("variable of another kind"),
+        },
+    }
+}
+
+fn image_kind(dimension: ImageDimension, arrayed: bool, class: ImageClass) -> BindingKind {
+    let dimension = match (dimension, arrayed) {
+        (ImageDimension::D2, false) => wgpu::TextureViewDimension::D2,
+        (ImageDimension::D2, true) => wgpu::TextureViewDimension::D2Array,
+        (ImageDimension::Cube, false) => wgpu::TextureViewDimension::Cube,
+        (ImageDimension::D3, _) => wgpu::TextureViewDimension::D3,
+        (ImageDimension::D1, _) => return BindingKind::Unsupported("1D texture"),
+        (ImageDimension::Cube, true) => return BindingKind::Unsupported("cube array"),
+    };
+    let texture = |kind, multisampled| {
+        BindingKind::Texture(TextureType {
+            kind,
+            dimension,
+            multisampled,
+        })
+    };
+    match class {
+        ImageClass::Sampled { kind, multi } => scalar_kind(kind).map_or(
+            BindingKind::Unsupported("texture of another kind"),
+            |kind| texture(kind, multi),
+        ),
+        ImageClass::Depth { multi } => texture(SampleKind::Depth, multi),
+        ImageClass::Storage { format, access } => BindingKind::StorageTexture {
+            dimension,
+            // naga and wgpu give formats the same names.
+            format: Format::from_rust_name(&format!("{format:?}")),
+            access: match (
+                access.contains(StorageAccess::LOAD),
+                access.contains(StorageAccess::STORE),
+            ) {
+                (true, false) => wgpu::StorageTextureAccess::ReadOnly,
+                (true, true) => wgpu::StorageTextureAccess::ReadWrite,
+                _ => wgpu::StorageTextureAccess::WriteOnly,
+            },
+        },
+        _ => BindingKind::Unsupported("texture of another kind"),
     }
 }
 
@@ -247,6 +383,13 @@ mod tests {
             found.outputs,
             [(0, SampleKind::Float), (1, SampleKind::Uint)]
         );
+        let flat = |kind| {
+            BindingKind::Texture(TextureType {
+                kind,
+                dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            })
+        };
         let bindings: Vec<_> = found
             .bindings
             .iter()
@@ -255,8 +398,8 @@ mod tests {
         assert_eq!(
             bindings,
             [
-                ("depth", 0, &BindingKind::Texture(SampleKind::Depth)),
-                ("g_normal", 3, &BindingKind::Texture(SampleKind::Uint)),
+                ("depth", 0, &flat(SampleKind::Depth)),
+                ("g_normal", 3, &flat(SampleKind::Uint)),
             ]
         );
         let (members, size) = found.parameters.unwrap();

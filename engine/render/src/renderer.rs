@@ -6,7 +6,6 @@ use lightbench_assets::Assets;
 use lightbench_world::{World, systems};
 
 use crate::compile::Compiler;
-use crate::description::PassKind;
 use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
 use crate::inspect::Inspector;
@@ -14,7 +13,7 @@ use crate::layout::SceneLayout;
 use crate::pipeline::Pipeline;
 use crate::queries::{Measured, Queries};
 use crate::readback::{TargetImage, read_bytes, read_image};
-use crate::record::{Recording, record};
+use crate::record::{Recording, measures, record};
 use crate::scene::Scene;
 use crate::statistics::FrameStatistics;
 use crate::view::View;
@@ -132,18 +131,13 @@ impl Renderer {
         systems::update_bounds(world, assets.mesh_bounds());
         self.scene.sync_assets(assets).map_err(RenderError::Scene)?;
         self.scene.sync_world(world);
-        let light_volumes = pipeline
-            .desc
-            .passes
-            .iter()
-            .all(|pass| pass.kind != PassKind::Lights { volumes: false });
         let request = FrameRequest {
             view: *view,
             size: (width, height),
             time: time as f32,
             index: self.index,
-            gather_lights: pipeline.gathers_lights(),
-            light_volumes,
+            lists: &pipeline.lists,
+            light_lists: &pipeline.light_lists,
         };
         self.frame.extract(
             world,
@@ -155,13 +149,22 @@ impl Renderer {
         self.statistics.extract_ms = started.elapsed().as_secs_f64() * 1e3;
 
         let started = Instant::now();
-        let target_bytes = pipeline.prepare(&self.gpu, (width, height)).bytes();
+        let lights = self.scene.lights().len() as u32;
+        let engine = self.scene.engine_buffers();
+        let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights, self.serial);
+        let target_bytes = targets.bytes();
+        self.statistics.saved_bytes = targets.saved_bytes;
+        self.frame.data.history_frames = pipeline.history_frames();
         let group = self.scene.upload(&self.frame).clone();
         let mut encoder = self
             .gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.queries.begin(self.serial, pipeline.desc.passes.len());
+        self.queries.begin(
+            self.serial,
+            measures(pipeline, &self.inspector),
+            pipeline.desc.counters.len(),
+        );
         let recording = Recording {
             frame: &self.frame,
             meshes: &self.scene.meshes,
@@ -175,14 +178,21 @@ impl Renderer {
             &mut self.inspector,
             &mut self.statistics.passes,
         );
+        for (index, counter) in pipeline.desc.counters.iter().enumerate() {
+            let targets = pipeline.targets();
+            if let Some(buffer) = targets.and_then(|targets| targets.buffer(&counter.buffer)) {
+                self.queries
+                    .counter(index, buffer, counter.word, &mut encoder);
+            }
+        }
         self.queries.resolve(&mut encoder);
         self.gpu.queue.submit([encoder.finish()]);
         self.queries.submitted();
 
         self.statistics.record_ms = started.elapsed().as_secs_f64() * 1e3;
         self.statistics.gpu_ms = None;
-        self.statistics.objects = self.frame.drawn.len() as u32;
-        self.statistics.lights = self.frame.volumes.len() as u32;
+        self.statistics.objects = self.frame.visible_objects;
+        self.statistics.lights = self.frame.visible_lights;
         self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
         self.statistics.target_bytes = target_bytes;
         self.serial = self.serial.wrapping_add(1);

@@ -10,6 +10,7 @@ use naga_oil::compose::{
     ShaderDefValue,
 };
 
+use crate::description::Define;
 use crate::problem::{Place, Problem, suggestion};
 
 /// A shader that parsed and validated, before any pipeline is built from it.
@@ -109,7 +110,7 @@ impl ShaderComposer {
         &mut self,
         files: &Files,
         path: &str,
-        defines: &[&str],
+        defines: &[Define],
     ) -> Result<Shader, Problem> {
         let text = read(files, path)?;
         if text.trim().is_empty() {
@@ -119,7 +120,12 @@ impl ShaderComposer {
         self.check_imports(path, &text)?;
         let shader_defs = defines
             .iter()
-            .map(|define| ((*define).to_owned(), ShaderDefValue::Bool(true)))
+            .map(|define| {
+                let value = define
+                    .value
+                    .map_or(ShaderDefValue::Bool(true), ShaderDefValue::Int);
+                (define.name.clone(), value)
+            })
             .collect();
         let descriptor = NagaModuleDescriptor {
             source: &text,
@@ -139,7 +145,7 @@ impl ShaderComposer {
 
     /// A number for a shader's text with its defines and all modules: where anything of it differs,
     /// so does the number.
-    pub fn fingerprint(&self, text: &str, defines: &[&str]) -> u64 {
+    pub fn fingerprint(&self, text: &str, defines: &[Define]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (text, defines).hash(&mut hasher);
         self.module_texts.hash(&mut hasher);

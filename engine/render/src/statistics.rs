@@ -15,11 +15,19 @@ pub struct PassStatistics {
     pub instances: u32,
     /// Triangles sent to the rasteriser, before clipping and culling.
     pub triangles: u64,
+    /// Compute dispatches.
+    pub dispatches: u32,
+    /// Workgroups of those dispatches; `None` where the GPU decides.
+    pub workgroups: Option<u64>,
+    /// Whether the pass was left out, since nobody uses what it writes.
+    pub dropped: bool,
     /// Time to record the pass on the CPU, milliseconds.
     pub cpu_ms: f64,
     /// Time on the GPU, milliseconds; `None` where the adapter has no timestamps, or the frame's
     /// queries have not come back yet.
     pub gpu_ms: Option<f64>,
+    /// Vertices that vertex stages ran for; `None` where the adapter has no pipeline statistics.
+    pub vertices: Option<u64>,
     /// Fragments shaded; `None` where the adapter has no pipeline statistics.
     pub fragments: Option<u64>,
     /// Modelled bytes read from and written to targets.
@@ -43,8 +51,10 @@ pub struct FrameStatistics {
     pub lights: u32,
     /// Bytes of scene rows that changed and were uploaded.
     pub uploaded_bytes: u64,
-    /// Memory of all targets.
+    /// Memory of all targets and buffers of the pipeline.
     pub target_bytes: u64,
+    /// Memory that targets would take beyond that if none shared its texture with another.
+    pub saved_bytes: u64,
 }
 
 /// Bytes that a pass moves between its shader and its targets.
@@ -70,7 +80,7 @@ pub struct Traffic {
 /// - Clearing writes once. Vertices, textures and buffers are left out.
 pub fn traffic(pass: &PassDesc, targets: &Targets, coverage: f64) -> Traffic {
     let bytes = |name: &str| targets.get(name).map_or(0, |target| target.bytes());
-    let share = if matches!(pass.kind, PassKind::Lights { .. }) {
+    let share = if matches!(pass.kind, PassKind::Lights(_)) {
         coverage
     } else {
         1.0

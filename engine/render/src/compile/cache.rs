@@ -8,7 +8,7 @@ use std::collections::HashMap;
 /// What a pipeline is made of; equal keys make equal pipelines.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct PipelineKey {
-    /// Fingerprint of the shader with the vertex stage.
+    /// Fingerprint of the shader with the vertex stage, or of the compute shader.
     pub vertex: u64,
     /// Fingerprint of the shader with the fragment stage.
     pub fragment: Option<u64>,
@@ -20,10 +20,14 @@ pub(super) struct PipelineKey {
 /// session of edits, and is enough to go back to what was there a moment ago.
 const SURVIVES: u64 = 16;
 
+/// Pipelines of one kind by what they are made of, each with the compilation that last used it.
+type Kept<P> = HashMap<PipelineKey, (P, u64)>;
+
 /// Pipelines by what they are made of.
 #[derive(Default)]
 pub(super) struct PipelineCache {
-    pipelines: HashMap<PipelineKey, (wgpu::RenderPipeline, u64)>,
+    render: Kept<wgpu::RenderPipeline>,
+    compute: Kept<wgpu::ComputePipeline>,
     compilation: u64,
 }
 
@@ -32,19 +36,35 @@ impl PipelineCache {
     pub fn begin(&mut self) {
         self.compilation += 1;
         let oldest = self.compilation.saturating_sub(SURVIVES);
-        self.pipelines.retain(|_, (_, used)| *used >= oldest);
+        self.render.retain(|_, (_, used)| *used >= oldest);
+        self.compute.retain(|_, (_, used)| *used >= oldest);
     }
 
-    /// The pipeline of that key.
+    /// The render pipeline of that key.
     pub fn get(&mut self, key: &PipelineKey) -> Option<wgpu::RenderPipeline> {
-        let (pipeline, used) = self.pipelines.get_mut(key)?;
-        *used = self.compilation;
-        Some(pipeline.clone())
+        take(&mut self.render, key, self.compilation)
     }
 
-    /// Keeps a pipeline.
+    /// Keeps a render pipeline.
     pub fn insert(&mut self, key: PipelineKey, pipeline: &wgpu::RenderPipeline) {
-        self.pipelines
+        self.render
             .insert(key, (pipeline.clone(), self.compilation));
     }
+
+    /// The compute pipeline of that key.
+    pub fn get_compute(&mut self, key: &PipelineKey) -> Option<wgpu::ComputePipeline> {
+        take(&mut self.compute, key, self.compilation)
+    }
+
+    /// Keeps a compute pipeline.
+    pub fn insert_compute(&mut self, key: PipelineKey, pipeline: &wgpu::ComputePipeline) {
+        self.compute
+            .insert(key, (pipeline.clone(), self.compilation));
+    }
+}
+
+fn take<P: Clone>(kept: &mut Kept<P>, key: &PipelineKey, compilation: u64) -> Option<P> {
+    let (pipeline, used) = kept.get_mut(key)?;
+    *used = compilation;
+    Some(pipeline.clone())
 }

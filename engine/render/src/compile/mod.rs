@@ -3,7 +3,13 @@
 //! Everything is checked before anything is built, and everything is built before anything is
 //! replaced: a pipeline that fails to compile leaves the one on screen alone.
 
+mod build;
 mod cache;
+mod compute;
+mod fullscreen;
+mod geometry;
+mod lights;
+mod mips;
 mod state;
 
 use std::collections::HashMap;
@@ -11,17 +17,16 @@ use std::collections::HashMap;
 use lightbench_assets::files::Files;
 
 use crate::binding::{bind, target_layout};
-use crate::description::{PassDesc, PassKind, PipelineDesc, ShaderDesc};
+use crate::description::{Define, PassDesc, PassKind, PipelineDesc};
 use crate::gpu::Gpu;
 use crate::layout::SceneLayout;
-use crate::pipeline::{CompiledPass, LightPipelines, ParameterBlock, PassPipelines, Pipeline};
+use crate::parameters::ParameterBlock;
+use crate::pipeline::{CompiledPass, PassPipelines, Pipeline};
 use crate::problem::{Problem, Problems};
-use crate::reflection::{FRAGMENT_ENTRY, Reflection, VERTEX_ENTRY, reflect};
+use crate::reflection::{Reflection, reflect};
 use crate::shader::{Shader, ShaderComposer};
 use crate::validate::validate;
-use crate::variant::Variant;
-use cache::{PipelineCache, PipelineKey};
-use state::{State, VertexStreams, blend, compare};
+use cache::PipelineCache;
 
 pub use state::DrawPipeline;
 
@@ -52,7 +57,7 @@ pub struct Compiler {
     gpu: Gpu,
     layout: SceneLayout,
     composer: Option<ShaderComposer>,
-    shaders: HashMap<(String, Vec<&'static str>, Vec<String>), LoadedShader>,
+    shaders: HashMap<(String, Vec<&'static str>, Vec<Define>), LoadedShader>,
     /// Pipelines that were built, so that a save rebuilds only the passes that it touches, and
     /// going back to a text seen before rebuilds nothing.
     built: PipelineCache,
@@ -116,7 +121,7 @@ impl Compiler {
         files: &Files,
         path: &str,
         variant: &[&'static str],
-        defines: &[String],
+        defines: &[Define],
     ) -> Result<&LoadedShader, Problem> {
         let key = (path.to_owned(), variant.to_vec(), defines.to_vec());
         if !self.shaders.contains_key(&key) {
@@ -131,7 +136,7 @@ impl Compiler {
         files: &Files,
         path: &str,
         variant: &[&'static str],
-        defines: &[String],
+        defines: &[Define],
     ) -> Result<LoadedShader, Problem> {
         let composer = match &mut self.composer {
             Some(composer) => composer,
@@ -140,10 +145,10 @@ impl Compiler {
                 naga::valid::Capabilities::default(),
             )?),
         };
-        let defines: Vec<&str> = variant
+        let defines: Vec<Define> = variant
             .iter()
-            .copied()
-            .chain(defines.iter().map(String::as_str))
+            .map(|name| Define::flag(*name))
+            .chain(defines.iter().cloned())
             .collect();
         let shader = composer.compose(files, path, &defines)?;
         let reflection = reflect(&shader.module);
@@ -207,11 +212,13 @@ impl Compiler {
             parameters = loaded.reflection.parameters.clone();
         }
 
-        let target_layout = target_layout(&self.gpu, &sources, desc);
+        let target_layout = target_layout(&self.gpu, &sources, desc, pass);
         let formats: Vec<_> = pass
             .reads
             .iter()
-            .filter_map(|read| Some(desc.target(&read.target)?.format))
+            .map(|read| &read.target)
+            .chain(pass.updates.iter().map(|update| &update.target))
+            .filter_map(|name| Some(desc.target(name)?.format))
             .collect();
         let key = format!("{sources:?} {formats:?} {}", parameters.is_some());
         let parameters =
@@ -230,9 +237,18 @@ impl Compiler {
             });
         let layout = PassLayout { layout, key };
         let pipelines = match &pass.kind {
-            PassKind::Geometry { .. } => self.geometry(files, desc, pass, &layout),
-            PassKind::Lights { .. } => self.lights(files, desc, pass, &layout),
+            PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, &layout),
+            PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
             PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
+            PassKind::Compute(_) => self.compute(files, pass, &layout),
+            PassKind::Shadow(_) => Ok(PassPipelines::None),
+            PassKind::Mips { target, reduction } => {
+                self.mips(files, desc, pass, &target.target, *reduction)
+            }
+            PassKind::Clear
+            | PassKind::Copy { .. }
+            | PassKind::Resolve { .. }
+            | PassKind::History { .. } => Ok(PassPipelines::None),
         }
         .map_err(one)?;
         Ok(CompiledPass::new(
@@ -241,211 +257,5 @@ impl Compiler {
             target_layout,
             parameters,
         ))
-    }
-
-    /// One pipeline for each way in which the materials of a scene can be drawn.
-    fn geometry(
-        &mut self,
-        files: &Files,
-        desc: &PipelineDesc,
-        pass: &PassDesc,
-        layout: &PassLayout,
-    ) -> Result<PassPipelines, Problem> {
-        let mut variants = Vec::with_capacity(Variant::COUNT);
-        for variant in Variant::all() {
-            // Without colours and without holes there is nothing for a fragment stage to do.
-            let fragment = pass
-                .shader
-                .as_ref()
-                .filter(|_| !pass.colors.is_empty() || variant.alpha_test());
-            let depth_only = fragment.is_none();
-            let state = State {
-                fragment_defines: variant.defines(),
-                vertex_path: GEOMETRY_VERTEX,
-                vertex_defines: if depth_only { &["POSITION_ONLY"] } else { &[] },
-                own_vertex: true,
-                cull: if variant.two_sided() {
-                    None
-                } else {
-                    Some(wgpu::Face::Back)
-                },
-                front: if variant.mirrored() {
-                    wgpu::FrontFace::Cw
-                } else {
-                    wgpu::FrontFace::Ccw
-                },
-                depth_compare: pass.depth.as_ref().map(|depth| compare(depth.compare)),
-            };
-            variants.push(self.build(files, desc, pass, fragment, layout, &state)?);
-        }
-        Ok(PassPipelines::Geometry(variants))
-    }
-
-    /// Back faces, front faces and the whole screen; which light takes which is decided per frame.
-    fn lights(
-        &mut self,
-        files: &Files,
-        desc: &PipelineDesc,
-        pass: &PassDesc,
-        layout: &PassLayout,
-    ) -> Result<PassPipelines, Problem> {
-        let has_depth = pass.depth.is_some();
-        let mut build = |cull, test, defines: &'static [&'static str]| {
-            let state = State {
-                fragment_defines: &[],
-                vertex_path: LIGHT_VERTEX,
-                vertex_defines: defines,
-                own_vertex: false,
-                cull,
-                front: wgpu::FrontFace::Ccw,
-                depth_compare: has_depth.then_some(test),
-            };
-            self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)
-        };
-        use wgpu::CompareFunction::{Always, GreaterEqual, LessEqual};
-        // Depth is reversed, so "less" is farther. A back face lights what lies in front of it.
-        Ok(PassPipelines::Lights(LightPipelines {
-            back: build(Some(wgpu::Face::Front), LessEqual, &[])?,
-            front: build(Some(wgpu::Face::Back), GreaterEqual, &[])?,
-            screen: build(None, Always, &["FULL_SCREEN"])?,
-        }))
-    }
-
-    fn fullscreen(
-        &mut self,
-        files: &Files,
-        desc: &PipelineDesc,
-        pass: &PassDesc,
-        layout: &PassLayout,
-    ) -> Result<PassPipelines, Problem> {
-        let state = State {
-            fragment_defines: &[],
-            vertex_path: FULLSCREEN_VERTEX,
-            vertex_defines: &[],
-            own_vertex: true,
-            cull: None,
-            front: wgpu::FrontFace::Ccw,
-            depth_compare: pass.depth.as_ref().map(|depth| compare(depth.compare)),
-        };
-        let built = self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)?;
-        Ok(PassPipelines::Fullscreen(built.pipeline))
-    }
-
-    fn build(
-        &mut self,
-        files: &Files,
-        desc: &PipelineDesc,
-        pass: &PassDesc,
-        fragment: Option<&ShaderDesc>,
-        layout: &PassLayout,
-        state: &State,
-    ) -> Result<DrawPipeline, Problem> {
-        let mut own_vertex = false;
-        if let Some(shader) = fragment {
-            let loaded = self.load(files, &shader.path, state.fragment_defines, &shader.defines)?;
-            own_vertex = loaded.reflection.has_vertex && state.own_vertex;
-        }
-        if !own_vertex {
-            self.load(files, state.vertex_path, state.vertex_defines, &[])?;
-        }
-        let fragment = fragment.map(|shader| {
-            &self.shaders[&(
-                shader.path.clone(),
-                state.fragment_defines.to_vec(),
-                shader.defines.clone(),
-            )]
-        });
-        let vertex = match fragment.filter(|_| own_vertex) {
-            Some(own) => own,
-            None => {
-                &self.shaders[&(
-                    state.vertex_path.to_owned(),
-                    state.vertex_defines.to_vec(),
-                    Vec::new(),
-                )]
-            }
-        };
-
-        let streams = VertexStreams::of(&vertex.reflection);
-        let colors: Vec<_> = pass
-            .colors
-            .iter()
-            .filter_map(|color| {
-                let format = desc.target(&color.target)?.format.0;
-                Some(Some(wgpu::ColorTargetState {
-                    format,
-                    blend: blend(color.blend),
-                    write_mask: wgpu::ColorWrites::ALL,
-                }))
-            })
-            .collect();
-        let depth_stencil =
-            pass.depth
-                .as_ref()
-                .zip(state.depth_compare)
-                .and_then(|(depth, test)| {
-                    Some(wgpu::DepthStencilState {
-                        format: desc.target(&depth.target)?.format.0,
-                        depth_write_enabled: Some(depth.write),
-                        depth_compare: Some(test),
-                        stencil: wgpu::StencilState::default(),
-                        bias: wgpu::DepthBiasState::default(),
-                    })
-                });
-        let key = PipelineKey {
-            vertex: vertex.fingerprint,
-            fragment: fragment.map(|fragment| fragment.fingerprint),
-            state: format!(
-                "{colors:?} {depth_stencil:?} {:?} {:?} {}",
-                state.front, state.cull, layout.key
-            ),
-        };
-        let attributes = streams == VertexStreams::All;
-        if let Some(pipeline) = self.built.get(&key) {
-            return Ok(DrawPipeline {
-                pipeline,
-                attributes,
-            });
-        }
-        let descriptor = wgpu::RenderPipelineDescriptor {
-            label: Some(&pass.name),
-            layout: Some(&layout.layout),
-            vertex: wgpu::VertexState {
-                module: &vertex.module,
-                entry_point: Some(VERTEX_ENTRY),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: streams.layouts(),
-            },
-            primitive: wgpu::PrimitiveState {
-                front_face: state.front,
-                cull_mode: state.cull,
-                ..Default::default()
-            },
-            depth_stencil,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: fragment.map(|fragment| wgpu::FragmentState {
-                module: &fragment.module,
-                entry_point: Some(FRAGMENT_ENTRY),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &colors,
-            }),
-            multiview_mask: None,
-            cache: None,
-        };
-        let pipeline = self
-            .gpu
-            .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
-            .map_err(|error| {
-                let at = pass.shader.as_ref().map_or(&pass.at, |shader| &shader.at);
-                Problem::new(
-                    at.clone(),
-                    format!("the pass `{}` can't be built: {error}", pass.name),
-                )
-            })?;
-        self.built.insert(key, &pipeline);
-        Ok(DrawPipeline {
-            pipeline,
-            attributes,
-        })
     }
 }

@@ -1,6 +1,9 @@
 //! The fixed-function state of GPU pipelines, from the words of a description.
 
-use crate::description::{Blend, DepthCompare};
+use crate::description::{
+    Blend, BlendFactor, BlendOperation, BlendPart, Compare, DepthAttachment, Stencil,
+    StencilOperation,
+};
 use crate::reflection::Reflection;
 
 /// A render pipeline, and whether it reads the second vertex stream.
@@ -12,7 +15,19 @@ pub struct DrawPipeline {
     pub attributes: bool,
 }
 
+/// Which channels of the colour targets a pipeline writes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Channels {
+    /// Those that the pass declares.
+    Declared,
+    /// One channel of one target: for arrays of lights.
+    Only { target: u32, channel: u32 },
+    /// None: for marking stencil.
+    Nothing,
+}
+
 /// What differs between the pipelines of one pass.
+#[derive(Clone)]
 pub(super) struct State {
     pub fragment_defines: &'static [&'static str],
     pub vertex_path: &'static str,
@@ -21,7 +36,35 @@ pub(super) struct State {
     pub own_vertex: bool,
     pub cull: Option<wgpu::Face>,
     pub front: wgpu::FrontFace,
-    pub depth_compare: Option<wgpu::CompareFunction>,
+    /// The depth test; unused without a depth target.
+    pub depth_compare: wgpu::CompareFunction,
+    pub depth_write: bool,
+    pub stencil: wgpu::StencilState,
+    pub channels: Channels,
+    /// Whether depth beyond the near and far plane is clamped instead of cut off, where the device
+    /// can do it.
+    pub unclipped_depth: bool,
+}
+
+impl State {
+    /// The state that a pass declares, for a vertex stage.
+    pub fn new(vertex_path: &'static str, depth: Option<&DepthAttachment>) -> Self {
+        Self {
+            fragment_defines: &[],
+            vertex_path,
+            vertex_defines: &[],
+            own_vertex: true,
+            cull: None,
+            front: wgpu::FrontFace::Ccw,
+            depth_compare: depth.map_or(wgpu::CompareFunction::Always, |d| compare(d.compare)),
+            depth_write: depth.is_some_and(|d| d.write),
+            stencil: depth
+                .and_then(|d| d.stencil.as_ref())
+                .map_or_else(wgpu::StencilState::default, stencil),
+            channels: Channels::Declared,
+            unclipped_depth: false,
+        }
+    }
 }
 
 /// The vertex buffers that a vertex stage needs.
@@ -62,26 +105,82 @@ impl VertexStreams {
     }
 }
 
-pub(super) fn compare(test: DepthCompare) -> wgpu::CompareFunction {
+pub(super) fn compare(test: Compare) -> wgpu::CompareFunction {
     match test {
-        DepthCompare::Nearer => wgpu::CompareFunction::GreaterEqual,
-        DepthCompare::Equal => wgpu::CompareFunction::Equal,
-        DepthCompare::Always => wgpu::CompareFunction::Always,
+        Compare::Never => wgpu::CompareFunction::Never,
+        Compare::Nearer => wgpu::CompareFunction::GreaterEqual,
+        Compare::StrictlyNearer => wgpu::CompareFunction::Greater,
+        Compare::Farther => wgpu::CompareFunction::LessEqual,
+        Compare::StrictlyFarther => wgpu::CompareFunction::Less,
+        Compare::Equal => wgpu::CompareFunction::Equal,
+        Compare::NotEqual => wgpu::CompareFunction::NotEqual,
+        Compare::Always => wgpu::CompareFunction::Always,
+    }
+}
+
+/// The same for front and back faces.
+pub(super) fn stencil(stencil: &Stencil) -> wgpu::StencilState {
+    let face = wgpu::StencilFaceState {
+        compare: compare(stencil.compare),
+        fail_op: stencil_operation(stencil.fail),
+        depth_fail_op: stencil_operation(stencil.depth_fail),
+        pass_op: stencil_operation(stencil.pass),
+    };
+    wgpu::StencilState {
+        front: face,
+        back: face,
+        read_mask: u32::from(stencil.read_mask),
+        write_mask: u32::from(stencil.write_mask),
+    }
+}
+
+fn stencil_operation(operation: StencilOperation) -> wgpu::StencilOperation {
+    match operation {
+        StencilOperation::Keep => wgpu::StencilOperation::Keep,
+        StencilOperation::Zero => wgpu::StencilOperation::Zero,
+        StencilOperation::Replace => wgpu::StencilOperation::Replace,
+        StencilOperation::Invert => wgpu::StencilOperation::Invert,
+        StencilOperation::Increment => wgpu::StencilOperation::IncrementClamp,
+        StencilOperation::Decrement => wgpu::StencilOperation::DecrementClamp,
+        StencilOperation::IncrementWrap => wgpu::StencilOperation::IncrementWrap,
+        StencilOperation::DecrementWrap => wgpu::StencilOperation::DecrementWrap,
     }
 }
 
 pub(super) fn blend(blend: Blend) -> Option<wgpu::BlendState> {
-    let one = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    };
-    match blend {
-        Blend::Replace => None,
-        Blend::Add => Some(wgpu::BlendState {
-            color: one,
-            alpha: one,
-        }),
-        Blend::Over => Some(wgpu::BlendState::ALPHA_BLENDING),
+    blend.parts().map(|(color, alpha)| wgpu::BlendState {
+        color: component(color),
+        alpha: component(alpha),
+    })
+}
+
+fn component(part: BlendPart) -> wgpu::BlendComponent {
+    wgpu::BlendComponent {
+        src_factor: factor(part.source),
+        dst_factor: factor(part.destination),
+        operation: match part.operation {
+            BlendOperation::Add => wgpu::BlendOperation::Add,
+            BlendOperation::Subtract => wgpu::BlendOperation::Subtract,
+            BlendOperation::ReverseSubtract => wgpu::BlendOperation::ReverseSubtract,
+            BlendOperation::Min => wgpu::BlendOperation::Min,
+            BlendOperation::Max => wgpu::BlendOperation::Max,
+        },
+    }
+}
+
+fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
+    match factor {
+        BlendFactor::Zero => wgpu::BlendFactor::Zero,
+        BlendFactor::One => wgpu::BlendFactor::One,
+        BlendFactor::Source => wgpu::BlendFactor::Src,
+        BlendFactor::OneMinusSource => wgpu::BlendFactor::OneMinusSrc,
+        BlendFactor::SourceAlpha => wgpu::BlendFactor::SrcAlpha,
+        BlendFactor::OneMinusSourceAlpha => wgpu::BlendFactor::OneMinusSrcAlpha,
+        BlendFactor::Destination => wgpu::BlendFactor::Dst,
+        BlendFactor::OneMinusDestination => wgpu::BlendFactor::OneMinusDst,
+        BlendFactor::DestinationAlpha => wgpu::BlendFactor::DstAlpha,
+        BlendFactor::OneMinusDestinationAlpha => wgpu::BlendFactor::OneMinusDstAlpha,
+        BlendFactor::Constant => wgpu::BlendFactor::Constant,
+        BlendFactor::OneMinusConstant => wgpu::BlendFactor::OneMinusConstant,
     }
 }

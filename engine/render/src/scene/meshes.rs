@@ -36,7 +36,12 @@ pub struct MeshPool {
     ranges: Vec<MeshRange>,
     shapes: [MeshRange; 2],
     revisions: Option<Vec<u64>>,
+    /// How often the buffers were made.
+    buffers: u64,
 }
+
+const VERTICES: wgpu::BufferUsages = wgpu::BufferUsages::VERTEX.union(wgpu::BufferUsages::STORAGE);
+const INDICES: wgpu::BufferUsages = wgpu::BufferUsages::INDEX.union(wgpu::BufferUsages::STORAGE);
 
 impl MeshPool {
     /// A pool that holds the shapes alone.
@@ -51,9 +56,10 @@ impl MeshPool {
         };
         Self {
             gpu: gpu.clone(),
-            positions: empty(wgpu::BufferUsages::VERTEX),
-            attributes: empty(wgpu::BufferUsages::VERTEX),
-            indices: empty(wgpu::BufferUsages::INDEX),
+            positions: empty(VERTICES),
+            attributes: empty(VERTICES),
+            indices: empty(INDICES),
+            buffers: 1,
             ranges: Vec::new(),
             shapes: Default::default(),
             revisions: None,
@@ -103,20 +109,26 @@ impl MeshPool {
         self.positions = upload(
             "positions",
             bytemuck::cast_slice(&packed.positions),
-            wgpu::BufferUsages::VERTEX,
+            VERTICES,
         );
         self.attributes = upload(
             "attributes",
             bytemuck::cast_slice(&packed.attributes),
-            wgpu::BufferUsages::VERTEX,
+            VERTICES,
         );
-        self.indices = upload(
-            "indices",
-            bytemuck::cast_slice(&packed.indices),
-            wgpu::BufferUsages::INDEX,
-        );
+        self.indices = upload("indices", bytemuck::cast_slice(&packed.indices), INDICES);
         self.revisions = Some(revisions);
+        self.buffers += 1;
         Ok(())
+    }
+
+    /// Vertex positions, the rest of the vertices, and indices, for shaders that fetch vertices
+    /// themselves; and a number that differs where the buffers are others than before.
+    pub fn buffers(&self) -> ([&wgpu::Buffer; 3], u64) {
+        (
+            [&self.positions, &self.attributes, &self.indices],
+            self.buffers,
+        )
     }
 
     /// Uploads again at the next [`MeshPool::sync`].

@@ -18,6 +18,7 @@ use crate::gpu_data::{
     DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, MaterialData, NO_TEXTURE,
 };
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
+use crate::pipeline::EngineBuffers;
 use rows::SceneRows;
 use textures::TexturePool;
 
@@ -202,6 +203,12 @@ impl Scene {
                 resource: buffer.as_entire_binding(),
             })
             .collect();
+        // One view at a time; the pass chooses which by its offset.
+        entries[0].resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: buffers[0],
+            offset: 0,
+            size: std::num::NonZeroU64::new(size_of::<FrameData>() as u64),
+        });
         entries.push(wgpu::BindGroupEntry {
             binding: SAMPLER_BINDING,
             resource: wgpu::BindingResource::Sampler(sampler),
@@ -217,6 +224,18 @@ impl Scene {
             layout: &layout.group,
             entries: &entries,
         })
+    }
+
+    /// The buffers that passes may bind beside group 0.
+    pub fn engine_buffers(&self) -> EngineBuffers<'_> {
+        let ([mesh_positions, mesh_attributes, mesh_indices], revision) = self.meshes.buffers();
+        EngineBuffers {
+            mesh_positions,
+            mesh_attributes,
+            mesh_indices,
+            shadow_views: self.lights.buffer(),
+            revision,
+        }
     }
 
     /// Bytes of rows uploaded since the last call.

@@ -144,59 +144,42 @@ pub fn named(name: &str) -> Option<Named> {
 }
 
 pub fn target(name: &str, format: &str) -> TargetDesc {
-    TargetDesc {
-        name: name.into(),
-        at: at(),
-        format: Format::from_name(format).unwrap(),
-        size: TargetSize::Relative(1.0),
-    }
+    TargetDesc::new(name, at(), Format::from_name(format).unwrap())
 }
 
 pub fn writes(target: &str, load: Load, blend: Blend) -> ColorAttachment {
     ColorAttachment {
-        target: target.into(),
-        at: at(),
         load,
         blend,
+        ..ColorAttachment::new(target, at())
     }
 }
 
 pub fn depth(clear: bool) -> DepthAttachment {
     DepthAttachment {
-        target: "depth".into(),
-        at: at(),
         load: if clear {
             Load::Clear([0.0; 4])
         } else {
             Load::Keep
         },
-        compare: DepthCompare::Nearer,
         write: clear,
+        ..DepthAttachment::new("depth", at())
     }
 }
 
 pub fn pass(name: &str, kind: PassKind, shader: &str) -> PassDesc {
     PassDesc {
-        name: name.into(),
-        at: at(),
-        kind,
         shader: Some(ShaderDesc {
             path: shader.into(),
             at: at(),
             defines: Vec::new(),
         }),
-        reads: Vec::new(),
-        colors: Vec::new(),
-        depth: None,
+        ..PassDesc::new(name, at(), kind)
     }
 }
 
 pub fn read(target: &str) -> Read {
-    Read {
-        target: target.into(),
-        variable: target.into(),
-        at: at(),
-    }
+    Read::new(target, at())
 }
 
 const CLEAR: Load = Load::Clear([0.0; 4]);
@@ -237,10 +220,14 @@ fn output(desc: &mut PipelineDesc) {
 
 /// Forward, single pass.
 pub fn forward(accumulation: &str, gather_lights: bool) -> PipelineDesc {
-    let kind = PassKind::Geometry {
-        list: DrawList::Opaque,
-        gather_lights,
-    };
+    let kind = PassKind::Geometry(Geometry {
+        lights: if gather_lights {
+            ObjectLights::Gathered
+        } else {
+            ObjectLights::All
+        },
+        ..Geometry::default()
+    });
     let mut shade = pass("shade", kind, "shaders/forward/single_pass.wgsl");
     shade.colors = vec![writes("hdr", CLEAR, Blend::Replace)];
     shade.depth = Some(depth(true));
@@ -257,10 +244,7 @@ pub fn forward(accumulation: &str, gather_lights: bool) -> PipelineDesc {
 
 /// Deferred shading.
 pub fn deferred(accumulation: &str, volumes: bool) -> PipelineDesc {
-    let kind = PassKind::Geometry {
-        list: DrawList::Opaque,
-        gather_lights: false,
-    };
+    let kind = PassKind::Geometry(Geometry::default());
     let mut g_buffer = pass("g_buffer", kind, "shaders/deferred_shading/g_buffer.wgsl");
     let names = ["hdr", "g_albedo", "g_normal", "g_power"];
     g_buffer.colors = names
@@ -269,7 +253,10 @@ pub fn deferred(accumulation: &str, volumes: bool) -> PipelineDesc {
     g_buffer.depth = Some(depth(true));
     let mut lights = pass(
         "lights",
-        PassKind::Lights { volumes },
+        PassKind::Lights(Lights {
+            volumes,
+            ..Lights::default()
+        }),
         "shaders/deferred_shading/light.wgsl",
     );
     lights.reads = ["depth", "g_albedo", "g_normal", "g_power"]

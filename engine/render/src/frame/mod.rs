@@ -8,6 +8,7 @@ use lightbench_assets::Assets;
 use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
 use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
 
+use crate::description::{DrawList, DrawOrder, Lights, ObjectLights, PassDesc, PassKind, Repeat};
 use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
 use crate::variant::Variant;
 use crate::view::View;
@@ -52,21 +53,67 @@ pub struct MeshDraw {
 pub struct Frame {
     /// For the uniform buffer.
     pub data: FrameData,
-    /// Objects in drawing order.
+    /// Objects in drawing order, of all lists.
     pub drawn: Vec<DrawnObject>,
     /// Lists of lights.
     pub object_lights: Vec<u32>,
-    /// Light volumes in drawing order.
+    /// Light volumes in drawing order, of all lists.
     pub volumes: Vec<LightVolumeData>,
-    /// Draw calls of meshes.
-    pub mesh_draws: Vec<MeshDraw>,
-    /// Draw calls of light volumes.
-    pub volume_draws: Vec<VolumeDraw>,
-    /// Sum over the drawn lights of the share of the picture that each covers at most.
-    pub light_coverage: f64,
+    /// What `geometry` passes draw, in the order of the request.
+    pub lists: Vec<ObjectList>,
+    /// What `lights` passes draw, in the order of the request.
+    pub light_lists: Vec<LightList>,
+    /// Objects that the camera sees.
+    pub visible_objects: u32,
+    /// Lights that the camera sees.
+    pub visible_lights: u32,
     visible: Vec<u32>,
     order: Vec<(Variant, MeshId, u32)>,
     kinds: Vec<(VolumeKind, LightVolumeData)>,
+}
+
+/// What a `geometry` pass draws.
+#[derive(Clone, Debug, Default)]
+pub struct ObjectList {
+    /// Instanced draw calls.
+    pub draws: Vec<MeshDraw>,
+}
+
+/// What a `lights` pass draws.
+#[derive(Clone, Debug, Default)]
+pub struct LightList {
+    /// Instanced draw calls.
+    pub draws: Vec<VolumeDraw>,
+    /// Sum over the drawn lights of the share of the picture that each covers at most.
+    pub coverage: f64,
+}
+
+/// What tells one list of objects from another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ListKey {
+    /// Which objects.
+    pub list: DrawList,
+    /// In which order.
+    pub order: DrawOrder,
+    /// With which lights.
+    pub lights: ObjectLights,
+    /// Once for each group of lights.
+    pub repeat: Option<Repeat>,
+}
+
+impl ListKey {
+    /// The list that a pass draws; `None` for passes that draw no objects.
+    pub fn of(pass: &PassDesc) -> Option<Self> {
+        match &pass.kind {
+            PassKind::Geometry(geometry) => Some(Self {
+                list: geometry.list,
+                order: geometry.order,
+                lights: geometry.lights,
+                repeat: geometry.repeat,
+            }),
+            _ => None,
+        }
+    }
 }
 
 impl Default for FrameData {
@@ -77,7 +124,7 @@ impl Default for FrameData {
 
 /// What a frame is made for.
 #[derive(Clone, Copy, Debug)]
-pub struct FrameRequest {
+pub struct FrameRequest<'a> {
     /// The camera.
     pub view: View,
     /// Output size, pixels.
@@ -86,10 +133,10 @@ pub struct FrameRequest {
     pub time: f32,
     /// Frames since the renderer began.
     pub index: u32,
-    /// Gather the lights that reach each object; otherwise every object's list is all lights.
-    pub gather_lights: bool,
-    /// Bound lights by volumes; otherwise each covers the screen.
-    pub light_volumes: bool,
+    /// The lists of objects that passes draw.
+    pub lists: &'a [ListKey],
+    /// The lists of lights that passes draw.
+    pub light_lists: &'a [Lights],
 }
 
 impl Frame {
@@ -101,15 +148,26 @@ impl Frame {
         assets: &Assets,
         instances: &[InstanceData],
         lights: &[LightData],
-        request: &FrameRequest,
+        request: &FrameRequest<'_>,
     ) {
         let volume = self.camera(request, lights.len());
-        self.objects(world, assets, instances, &volume);
-        self.light_lists(world, lights, request.gather_lights);
-        self.light_volumes(lights, &volume, request.light_volumes);
+        self.drawn.clear();
+        self.object_lights.clear();
+        self.lists
+            .resize_with(request.lists.len(), Default::default);
+        self.find_visible(world, &volume);
+        for (index, key) in request.lists.iter().enumerate() {
+            self.objects(index, key, world, assets, instances, lights);
+        }
+        self.volumes.clear();
+        self.light_lists
+            .resize_with(request.light_lists.len(), Default::default);
+        for (index, key) in request.light_lists.iter().enumerate() {
+            self.light_volumes(index, key, lights, &volume);
+        }
     }
 
-    fn camera(&mut self, request: &FrameRequest, light_count: usize) -> ViewVolume {
+    fn camera(&mut self, request: &FrameRequest<'_>, light_count: usize) -> ViewVolume {
         let View {
             view, near, far, ..
         } = request.view;
@@ -133,7 +191,13 @@ impl Frame {
             far,
             light_count: light_count as u32,
             frame_index: request.index,
-            padding: [0; 2],
+            history_frames: 0,
+            padding: 0,
+            previous_view_projection: if request.index == 0 {
+                view_projection
+            } else {
+                self.data.view_projection
+            },
         };
         let (focal_x, focal_y) = (projection.x_axis.x, projection.y_axis.y);
         ViewVolume {
@@ -149,14 +213,8 @@ impl Frame {
         }
     }
 
-    /// Culls, sorts by pipeline variant and mesh, and groups into instanced draws.
-    fn objects(
-        &mut self,
-        world: &World,
-        assets: &Assets,
-        instances: &[InstanceData],
-        volume: &ViewVolume,
-    ) {
+    /// Finds the objects that the camera sees.
+    fn find_visible(&mut self, world: &World, volume: &ViewVolume) {
         let bounds = world.columns::<WorldBounds>();
         let b = bounds.slices();
         let spheres = Spheres {
@@ -166,7 +224,18 @@ impl Frame {
             radius: b.radius,
         };
         cull_spheres(&volume.frustum, spheres, &mut self.visible);
+    }
 
+    /// Sorts by pipeline variant and mesh, and groups into instanced draws.
+    fn objects(
+        &mut self,
+        index: usize,
+        key: &ListKey,
+        world: &World,
+        assets: &Assets,
+        instances: &[InstanceData],
+        lights: &[LightData],
+    ) {
         let renderers = world.columns::<MeshRenderer>();
         let r = renderers.slices();
         self.order.clear();
@@ -181,8 +250,9 @@ impl Frame {
         }
         self.order.sort_unstable();
 
-        self.drawn.clear();
-        self.mesh_draws.clear();
+        let first = self.drawn.len();
+        let draws = &mut self.lists[index].draws;
+        draws.clear();
         for &(variant, mesh, row) in &self.order {
             let at = self.drawn.len() as u32;
             self.drawn.push(DrawnObject {
@@ -191,32 +261,35 @@ impl Frame {
                 light_count: 0,
                 reserved: 0,
             });
-            match self.mesh_draws.last_mut() {
+            match draws.last_mut() {
                 Some(draw) if draw.variant == variant && draw.mesh == mesh => {
                     draw.objects.end = at + 1
                 }
-                _ => self.mesh_draws.push(MeshDraw {
+                _ => draws.push(MeshDraw {
                     variant,
                     mesh,
                     objects: at..at + 1,
                 }),
             }
         }
+        self.visible_objects = self.drawn.len() as u32;
+        self.light_lists_of(world, lights, first, key);
     }
 
-    /// Gives each object its list of lights, in the order of light indices.
-    fn light_lists(&mut self, world: &World, lights: &[LightData], gather: bool) {
-        self.object_lights.clear();
-        if !gather {
+    /// Gives each object from `first` on its list of lights, in the order of light indices.
+    fn light_lists_of(&mut self, world: &World, lights: &[LightData], first: usize, key: &ListKey) {
+        let start = self.object_lights.len() as u32;
+        if key.lights != ObjectLights::Gathered {
             self.object_lights.extend(0..lights.len() as u32);
-            for object in &mut self.drawn {
+            for object in &mut self.drawn[first..] {
+                object.first_light = start;
                 object.light_count = lights.len() as u32;
             }
             return;
         }
         let bounds = world.columns::<WorldBounds>();
         let b = bounds.slices();
-        for object in &mut self.drawn {
+        for object in &mut self.drawn[first..] {
             let row = object.instance as usize;
             let center = Vec3::new(b.x[row], b.y[row], b.z[row]);
             let half = Vec3::new(b.half_x[row], b.half_y[row], b.half_z[row]);
@@ -235,12 +308,19 @@ impl Frame {
     }
 
     /// Chooses how each light is drawn, and groups equal choices into instanced draws.
-    fn light_volumes(&mut self, lights: &[LightData], view: &ViewVolume, bounded: bool) {
+    fn light_volumes(
+        &mut self,
+        index: usize,
+        key: &Lights,
+        lights: &[LightData],
+        view: &ViewVolume,
+    ) {
         self.kinds.clear();
-        self.light_coverage = 0.0;
+        let list = &mut self.light_lists[index];
+        list.coverage = 0.0;
         for (index, light) in lights.iter().enumerate() {
-            if let Some(found) = volumes::volume(light, index as u32, view, bounded) {
-                self.light_coverage += if bounded {
+            if let Some(found) = volumes::volume(light, index as u32, view, key.volumes) {
+                list.coverage += if key.volumes {
                     volumes::coverage(light, view)
                 } else {
                     1.0
@@ -248,17 +328,17 @@ impl Frame {
                 self.kinds.push(found);
             }
         }
+        self.visible_lights = self.kinds.len() as u32;
         // Equal kinds stay in the order of light indices, so that sums do too.
         self.kinds
             .sort_unstable_by_key(|(kind, data)| (*kind, data.light));
-        self.volumes.clear();
-        self.volume_draws.clear();
+        list.draws.clear();
         for (kind, data) in &self.kinds {
             let at = self.volumes.len() as u32;
             self.volumes.push(*data);
-            match self.volume_draws.last_mut() {
+            match list.draws.last_mut() {
                 Some(draw) if draw.kind == *kind => draw.volumes.end = at + 1,
-                _ => self.volume_draws.push(VolumeDraw {
+                _ => list.draws.push(VolumeDraw {
                     kind: *kind,
                     volumes: at..at + 1,
                 }),
