@@ -291,8 +291,13 @@ fn workgroups(desc: &PassDesc, pipelines: &PassPipelines, targets: &Targets) -> 
 /// A pipeline that can draw.
 #[derive(Debug)]
 pub struct Pipeline {
-    /// What it was compiled from, with the parameter values in force.
+    /// What it was compiled from, with the parameter values in force and the formats that the
+    /// adapter can do.
     pub desc: PipelineDesc,
+    /// The same as it was written.
+    declared: PipelineDesc,
+    /// Where another format took a target's place, in a sentence each.
+    pub notes: Vec<String>,
     /// In the order of the description.
     pub(crate) passes: Vec<CompiledPass>,
     /// The lists of objects that its geometry passes need, each once.
@@ -310,7 +315,12 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    pub(crate) fn new(desc: PipelineDesc, mut passes: Vec<CompiledPass>) -> Self {
+    pub(crate) fn new(
+        declared: PipelineDesc,
+        desc: PipelineDesc,
+        notes: Vec<String>,
+        mut passes: Vec<CompiledPass>,
+    ) -> Self {
         let (mut lists, mut light_lists) = (Vec::new(), Vec::new());
         for (pass, compiled) in desc.passes.iter().zip(&mut passes) {
             compiled.list = match &pass.kind {
@@ -322,6 +332,8 @@ impl Pipeline {
             lives: Lives::of(&desc),
             grown: vec![0; desc.buffers.len()],
             desc,
+            declared,
+            notes,
             passes,
             lists,
             light_lists,
@@ -362,9 +374,10 @@ impl Pipeline {
     ///
     /// Returns false, and changes nothing, if the structure differs: then it must be compiled.
     pub fn adopt_values(&mut self, desc: &PipelineDesc) -> bool {
-        let same = self.desc.same_structure(desc);
+        let same = self.declared.same_structure(desc);
         if same {
-            self.desc.clone_from(desc);
+            self.desc.parameters.clone_from(&desc.parameters);
+            self.declared.clone_from(desc);
         }
         same
     }

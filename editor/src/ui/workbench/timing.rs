@@ -151,6 +151,7 @@ mod tests {
             gpu_ms: vec![ms],
             total_ms: Some(ms),
             fragments: Vec::new(),
+            ..Measured::default()
         };
         let mut timings = Timings::default();
         timings.submitted(1, &statistics);

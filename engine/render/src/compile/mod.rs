@@ -18,6 +18,7 @@ use lightbench_assets::files::Files;
 
 use crate::binding::{bind, target_layout};
 use crate::description::{Define, PassDesc, PassKind, PipelineDesc};
+use crate::fallback::settle_formats;
 use crate::gpu::Gpu;
 use crate::layout::SceneLayout;
 use crate::parameters::ParameterBlock;
@@ -90,6 +91,10 @@ impl Compiler {
     /// # Errors
     /// All mistakes of the description; else the first mistake of each shader.
     pub fn compile(&mut self, files: &Files, desc: &PipelineDesc) -> Result<Pipeline, Problems> {
+        let declared = desc;
+        let mut desc = declared.clone();
+        let notes = settle_formats(&mut desc, &self.gpu);
+        let desc = &desc;
         validate(desc, &self.gpu)?;
         self.built.begin();
         let mut problems = Vec::new();
@@ -109,7 +114,7 @@ impl Compiler {
             }
         });
         if problems.is_empty() {
-            Ok(Pipeline::new(desc.clone(), passes))
+            Ok(Pipeline::new(declared.clone(), desc.clone(), notes, passes))
         } else {
             Err(Problems(problems))
         }

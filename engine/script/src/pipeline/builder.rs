@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lightbench_render::description::Named;
+use lightbench_render::description::{Ability, Named, PassDesc};
 use lightbench_render::problem::suggestion;
 use lightbench_render::{PipelineDesc, Place, Problem, Problems};
 use rhai::Dynamic;
 
-use super::{parameters, passes, targets};
+use super::{buffers, parameters, passes, targets};
 use crate::api::{Api, Arguments, Mistake, ScriptType};
 use crate::compile::Compiler;
 use crate::names::list;
@@ -21,15 +21,27 @@ use crate::settings::Settings;
 pub(super) struct Builder {
     pub(super) desc: PipelineDesc,
     pub(super) problems: Vec<Problem>,
-    /// What the last `.writes` or `.depth` of each pass was.
-    pub(super) last: Vec<Last>,
+    /// One for each pass of the description.
+    handles: Vec<Handle>,
+    next_id: usize,
+    /// Before which pass new ones come; after all without one.
+    pub(super) insert_before: Option<usize>,
     pub(super) settings: Settings,
 }
 
-/// What `.clear`, `.blend` and `.test` of a pass apply to.
+/// What a script's variable of a pass stands for; passes may move, their numbers stay.
+#[derive(Debug)]
+struct Handle {
+    id: usize,
+    last: Last,
+}
+
+/// What `.clear`, `.blend`, `.mip` and the like apply to: what the pass named last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Last {
     Nothing,
+    Read,
+    Update,
     Color,
     Depth,
 }
@@ -93,11 +105,25 @@ impl Pipelines {
         let pipeline = Pipeline(Arc::new(Mutex::new(Builder {
             desc,
             problems: Vec::new(),
-            last: Vec::new(),
+            handles: Vec::new(),
+            next_id: 0,
+            insert_before: None,
             settings: self.settings.clone(),
         })));
         self.made().push(pipeline.clone());
         pipeline
+    }
+
+    /// Goes on with the pipeline that an imported file made.
+    fn derive(&self, title: String) -> Result<Pipeline, Mistake> {
+        let made = self.made();
+        let Some(pipeline) = made.last() else {
+            return Err(Mistake::new("no imported file made a pipeline").with_hint(
+                "write `import \"deferred_shading\" as base;` with a pipeline's name before it",
+            ));
+        };
+        pipeline.lock().desc.title = title;
+        Ok(pipeline.clone())
     }
 
     /// What the file made, or everything that is wrong with it.
@@ -144,6 +170,52 @@ impl Pipelines {
 }
 
 impl Builder {
+    /// Adds a pass where new ones go, and gives its number.
+    pub(super) fn add_pass(&mut self, pass: PassDesc) -> usize {
+        let before = self
+            .insert_before
+            .and_then(|id| self.handles.iter().position(|handle| handle.id == id));
+        let index = before.unwrap_or(self.handles.len());
+        let id = self.next_id;
+        self.next_id += 1;
+        let last = Last::Nothing;
+        self.handles.insert(index, Handle { id, last });
+        self.desc.passes.insert(index, pass);
+        id
+    }
+
+    /// The pass of a number, and what it named last.
+    pub(super) fn pass(&mut self, id: usize) -> Option<(&mut PassDesc, &mut Last)> {
+        let index = self.handles.iter().position(|handle| handle.id == id)?;
+        Some((
+            self.desc.passes.get_mut(index)?,
+            &mut self.handles.get_mut(index)?.last,
+        ))
+    }
+
+    /// The number of the pass of that name.
+    pub(super) fn find_pass(&self, name: &str) -> Result<usize, Mistake> {
+        let names = || self.desc.passes.iter().map(|pass| pass.name.as_str());
+        let index = names().position(|known| known == name);
+        index
+            .and_then(|index| self.handles.get(index))
+            .map(|handle| handle.id)
+            .ok_or_else(|| {
+                let mistake = Mistake::new(format!("there is no pass `{name}`"));
+                let hint = suggestion(name, names())
+                    .unwrap_or_else(|| format!("there are {}", list(names(), "and")));
+                mistake.with_hint(hint)
+            })
+    }
+
+    /// Takes a pass out.
+    pub(super) fn remove_pass(&mut self, id: usize) {
+        if let Some(index) = self.handles.iter().position(|handle| handle.id == id) {
+            self.handles.remove(index);
+            self.desc.passes.remove(index);
+        }
+    }
+
     /// Settings that no parameter has taken.
     fn unknown_settings(&self) -> Vec<Problem> {
         let names = || self.desc.parameters.iter().map(|p| p.name.as_str());
@@ -176,6 +248,25 @@ pub(super) fn problem(at: Place, mistake: Mistake) -> Problem {
     problem
 }
 
+/// Targets and buffers share their names, since shaders use them in one place.
+pub(super) fn not_taken(builder: &Builder, name: &str) -> Result<(), Mistake> {
+    let target = builder
+        .desc
+        .target(name)
+        .map(|target| ("target", &target.at));
+    let buffer = builder
+        .desc
+        .buffer(name)
+        .map(|buffer| ("buffer", &buffer.at));
+    match target.or(buffer) {
+        Some((what, first)) => Err(Mistake::new(format!(
+            "there is a {what} `{name}` already, in line {} of {}",
+            first.line, first.file
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// A name that a shader uses must be one that WGSL accepts.
 pub(super) fn shader_name(name: &str, what: &str) -> Result<(), Mistake> {
     let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -195,7 +286,7 @@ pub(super) fn shader_name(name: &str, what: &str) -> Result<(), Mistake> {
 /// Registers everything that a pipeline file can call.
 pub(super) fn register(api: &mut Api, made: &Pipelines) {
     api.object::<Pipeline>();
-    let made = made.clone();
+    let (made, imported) = (made.clone(), made.clone());
     api.function(
         "pipeline(title)",
         "Begins a pipeline. The file's last line gives it back.",
@@ -204,6 +295,41 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
             Ok(made.begin(title, &arguments.place()))
         },
     );
+    let made = imported;
+    api.function(
+        "derive(title)",
+        "Goes on with the pipeline of the file that was imported last: change its passes with \
+         `.pass`, take some out, insert others.",
+        move |arguments| made.derive(arguments.text(0)?),
+    );
+    for (form, supported, about) in [
+        (
+            "supports(ability, text)",
+            true,
+            "Says that the pipeline can do something, as `transparency` or `msaa`, and how.",
+        ),
+        (
+            "lacks(ability, reason)",
+            false,
+            "Says that the pipeline can't do something, and why.",
+        ),
+    ] {
+        method(api, form, about, move |builder, arguments, at| {
+            let ability = Ability {
+                name: arguments.text(0)?,
+                at,
+                supported,
+                text: arguments.text(1)?,
+            };
+            // What a derived pipeline says takes the place of what the first one said.
+            builder
+                .desc
+                .abilities
+                .retain(|other| other.name != ability.name);
+            builder.desc.abilities.push(ability);
+            Ok(())
+        });
+    }
     method(
         api,
         "describe(text)",
@@ -235,6 +361,7 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
     );
     parameters::register(api);
     targets::register(api);
+    buffers::register(api);
     passes::register(api);
 }
 

@@ -1,5 +1,6 @@
 //! Pipeline files: `scripts/pipelines/*.rhai` become [`PipelineDesc`]s.
 
+mod buffers;
 mod builder;
 mod parameters;
 mod passes;

@@ -1,11 +1,11 @@
 //! Targets of a pipeline.
 
 use lightbench_render::Format;
-use lightbench_render::description::{TargetDesc, TargetSize};
+use lightbench_render::description::{Mips, Shape, TargetDesc, TargetSize};
 use lightbench_render::problem::suggestion;
 
-use super::builder::{Pipeline, problem, shader_name};
-use crate::api::{Api, Mistake, ScriptType};
+use super::builder::{Pipeline, not_taken, problem, shader_name};
+use crate::api::{Api, Arguments, Mistake, ScriptType};
 
 /// The largest side of a target, which every adapter can do.
 const MAX_SIDE: i64 = 8192;
@@ -14,20 +14,12 @@ const MAX_SIDE: i64 = 8192;
 #[derive(Clone, Debug)]
 struct Target {
     pipeline: Pipeline,
-    /// Its place in the description; `None` where its declaration has a mistake.
-    index: Option<usize>,
+    /// Its name; `None` where its declaration has a mistake.
+    name: Option<String>,
 }
 
 impl ScriptType for Target {
     const NAME: &'static str = "target";
-}
-
-impl Target {
-    fn resize(&self, size: TargetSize) {
-        if let Some(index) = self.index {
-            self.pipeline.lock().desc.targets[index].size = size;
-        }
-    }
 }
 
 pub(super) fn register(api: &mut Api) {
@@ -37,16 +29,11 @@ pub(super) fn register(api: &mut Api) {
         "Declares a texture that passes write and read, as large as the output. The format is a \
          WebGPU name, as in `rgba16float`.",
         |pipeline: Pipeline, arguments| {
-            let mut index = None;
+            let mut declared = None;
             pipeline.note(arguments, |builder, at| {
                 let name = arguments.text(0)?;
                 shader_name(&name, "a target")?;
-                if let Some(first) = builder.desc.target(&name) {
-                    return Err(Mistake::new(format!(
-                        "there is a target `{name}` already, in line {} of {}",
-                        first.at.line, first.at.file
-                    )));
-                }
+                not_taken(builder, &name)?;
                 let asked = arguments.text(1)?;
                 let mut format = Format::from_name(&asked);
                 if format.is_none() {
@@ -60,48 +47,145 @@ pub(super) fn register(api: &mut Api) {
                     format = names.first().and_then(|name| Format::from_name(name));
                 }
                 if let Some(format) = format {
-                    index = Some(builder.desc.targets.len());
-                    builder.desc.targets.push(TargetDesc {
-                        name,
-                        at,
-                        format,
-                        size: TargetSize::Relative(1.0),
-                    });
+                    declared = Some(name.clone());
+                    builder.desc.targets.push(TargetDesc::new(name, at, format));
                 }
                 Ok(())
             });
-            Ok(Target { pipeline, index })
+            let name = declared;
+            Ok(Target { pipeline, name })
         },
     );
-    api.method(
+    change(
+        api,
         "scale(factor)",
         "Makes the target smaller or larger than the output, by a factor from 1/64 to 4.",
-        |target: Target, arguments| {
-            target.pipeline.note(arguments, |_, _| {
-                arguments.number_in(0, 1.0 / 64.0, 4.0).map(|_| ())
-            });
-            if let Ok(factor) = arguments.number_in(0, 1.0 / 64.0, 4.0) {
-                target.resize(TargetSize::Relative(factor as f32));
-            }
-            Ok(target)
+        |target, arguments| {
+            let factor = arguments.number_in(0, 1.0 / 64.0, 4.0)?;
+            target.size = TargetSize::Relative(factor as f32);
+            Ok(())
         },
     );
-    api.method(
+    change(
+        api,
         "size(width, height)",
         "Gives the target a fixed size in texels.",
-        |target: Target, arguments| {
-            let sides = || {
-                let width = arguments.whole(0, 1, MAX_SIDE)?;
-                let height = arguments.whole(1, 1, MAX_SIDE)?;
-                Ok((width as u32, height as u32))
-            };
-            target
-                .pipeline
-                .note(arguments, |_, _| sides().map(|_: (u32, u32)| ()));
-            if let Ok((width, height)) = sides() {
-                target.resize(TargetSize::Absolute(width, height));
-            }
-            Ok(target)
+        |target, arguments| {
+            let width = arguments.whole(0, 1, MAX_SIDE)? as u32;
+            let height = arguments.whole(1, 1, MAX_SIDE)? as u32;
+            target.size = TargetSize::Absolute(width, height);
+            Ok(())
         },
     );
+    change(
+        api,
+        "per_tile(size)",
+        "Gives the target one texel for each tile of that many by that many pixels.",
+        |target, arguments| {
+            target.size = TargetSize::Tiles(arguments.whole(0, 1, 1024)? as u32);
+            Ok(())
+        },
+    );
+    change(
+        api,
+        "array(layers)",
+        "Makes the target an array; shaders read a `texture_2d_array`.",
+        |target, arguments| shape(target, Shape::Array(arguments.whole(0, 1, 256)? as u32)),
+    );
+    change(
+        api,
+        "cube()",
+        "Makes the target a cube of six sides: +x, -x, +y, -y, +z, -z; shaders read a \
+         `texture_cube`. Give it a `.size` of equal sides.",
+        |target, _| shape(target, Shape::Cube),
+    );
+    change(
+        api,
+        "volume(depth)",
+        "Makes the target a box of so many slices; shaders read a `texture_3d`.",
+        |target, arguments| shape(target, Shape::Volume(arguments.whole(0, 1, 2048)? as u32)),
+    );
+    change(
+        api,
+        "mips()",
+        "Gives the target all mip levels down to one texel. A `mips` pass fills them.",
+        |target, _| {
+            target.mips = Mips::All;
+            Ok(())
+        },
+    );
+    change(
+        api,
+        "mips(count)",
+        "Gives the target so many mip levels.",
+        |target, arguments| {
+            target.mips = Mips::Count(arguments.whole(0, 1, 16)? as u32);
+            Ok(())
+        },
+    );
+    change(
+        api,
+        "samples(count)",
+        "Gives each texel 1 or 4 samples; shaders read a `texture_multisampled_2d`.",
+        |target, arguments| {
+            target.samples = match arguments.whole(0, 1, 4)? {
+                1 => 1,
+                4 => 4,
+                other => {
+                    return Err(Mistake::new(format!(
+                        "a texel has 1 or 4 samples, not {other}"
+                    )));
+                }
+            };
+            Ok(())
+        },
+    );
+    change(
+        api,
+        "fallback(format)",
+        "Names a format to take instead where the adapter can't do the first.",
+        |target, arguments| {
+            let asked = arguments.text(0)?;
+            let names: Vec<String> = Format::names().collect();
+            let format = Format::from_name(&asked).ok_or_else(|| {
+                let mistake = Mistake::new(format!("there is no format `{asked}`"));
+                match suggestion(&asked, names.iter().map(String::as_str)) {
+                    Some(hint) => mistake.with_hint(hint),
+                    None => mistake,
+                }
+            })?;
+            target.fallbacks.push(format);
+            Ok(())
+        },
+    );
+}
+
+fn shape(target: &mut TargetDesc, shape: Shape) -> Result<(), Mistake> {
+    if target.shape != Shape::Flat {
+        return Err(Mistake::new(format!(
+            "the target is {} already",
+            target.shape.in_words()
+        )));
+    }
+    target.shape = shape;
+    Ok(())
+}
+
+/// Registers a method of a target that gives the target back.
+fn change(
+    api: &mut Api,
+    form: &str,
+    about: &'static str,
+    body: impl Fn(&mut TargetDesc, &Arguments) -> Result<(), Mistake> + Send + Sync + 'static,
+) {
+    api.method(form, about, move |target: Target, arguments| {
+        target.pipeline.note(arguments, |builder, _| {
+            // A target that could not be declared has its mistake already.
+            let mut targets = builder.desc.targets.iter_mut();
+            targets
+                .find(|found| Some(&found.name) == target.name.as_ref())
+                .map_or(Ok(()), |found| body(found, arguments))
+        });
+        Ok(target)
+    });
 }

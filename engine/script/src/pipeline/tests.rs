@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use lightbench_render::description::{
-    Blend, DepthCompare, Load, ParameterValue, PassKind, TargetSize,
+    Blend, Compare, Define, Lights, Load, ParameterValue, PassKind, TargetSize,
 };
 
 use super::*;
@@ -100,7 +100,7 @@ fn a_whole_pipeline() {
         (shader.path.as_str(), shader.at.line),
         ("shaders/g.wgsl", 16)
     );
-    assert_eq!(shader.defines, ["FANCY"]);
+    assert_eq!(shader.defines, [Define::flag("FANCY")]);
     assert_eq!(g_buffer.colors[0].load, Load::Clear([0.0, 0.0, 0.0, 1.0]));
     assert_eq!(
         (g_buffer.colors[1].at.line, g_buffer.colors[1].at.column),
@@ -109,11 +109,11 @@ fn a_whole_pipeline() {
     let depth = g_buffer.depth.as_ref().unwrap();
     assert_eq!(
         (depth.compare, depth.write, depth.load),
-        (DepthCompare::Equal, false, Load::Keep)
+        (Compare::Equal, false, Load::Keep)
     );
 
     let lights = &desc.passes[2];
-    assert_eq!(lights.kind, PassKind::Lights { volumes: true });
+    assert_eq!(lights.kind, PassKind::Lights(Lights::default()));
     assert_eq!(lights.reads[1].variable, "scene_depth");
     assert_eq!(lights.colors[0].blend, Blend::Add);
     assert!(

@@ -1,0 +1,211 @@
+//! What `geometry` and `lights` passes draw.
+
+use lightbench_render::description::{
+    DrawList, DrawOrder, Faces, Geometry, LightStencil, Lights, ObjectLights, PassKind, Repeat,
+};
+
+use super::{Open, method, only_for};
+use crate::api::{Api, Mistake};
+
+pub(super) fn register(api: &mut Api) {
+    geometry(api);
+    repeat(api);
+    lights(api);
+}
+
+fn geometry(api: &mut Api) {
+    method(
+        api,
+        "draws(list)",
+        "Says which objects a geometry pass draws: `opaque`, `transparent`, `all` or `casters`.",
+        |open, arguments| {
+            let list = arguments.choice(0, &DrawList::NAMES)?;
+            of_geometry(open, "draws", |geometry| geometry.list = list)
+        },
+    );
+    method(
+        api,
+        "order(order)",
+        "In which order a geometry pass draws its objects: `state` groups equal meshes, \
+         `front_to_back` hides early, `back_to_front` is what blending needs.",
+        |open, arguments| {
+            let order = arguments.choice(0, &DrawOrder::NAMES)?;
+            of_geometry(open, "order", |geometry| geometry.order = order)
+        },
+    );
+    method(
+        api,
+        "faces(faces)",
+        "Which faces a geometry pass draws: `material` (back faces only of two-sided materials), \
+         `front`, `back` or `both`.",
+        |open, arguments| {
+            let faces = arguments.choice(0, &Faces::NAMES)?;
+            of_geometry(open, "faces", |geometry| geometry.faces = faces)
+        },
+    );
+    method(
+        api,
+        "gather_lights(on)",
+        "Whether the engine gathers, for each object, the lights that reach it. Else each object \
+         gets all lights.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_geometry(open, "gather_lights", |geometry| {
+                geometry.lights = if on {
+                    ObjectLights::Gathered
+                } else {
+                    ObjectLights::All
+                };
+            })
+        },
+    );
+    method(
+        api,
+        "object_lights(which)",
+        "Which lights each object's list holds: `all`, `gathered`, `ambient` or `nothing`.",
+        |open, arguments| {
+            let lights = arguments.choice(0, &ObjectLights::NAMES)?;
+            of_geometry(open, "object_lights", |geometry| geometry.lights = lights)
+        },
+    );
+}
+
+fn repeat(api: &mut Api) {
+    method(
+        api,
+        "repeat_for_lights(count)",
+        "Draws the objects again for each group of that many lights, ambient ones left out; each \
+         time only those that a light of the group reaches.",
+        |open, arguments| {
+            let lights = arguments.whole(0, 1, 1024)? as u32;
+            of_geometry(open, "repeat_for_lights", |geometry| {
+                geometry.repeat = Some(Repeat {
+                    lights,
+                    scissor: false,
+                    stencil: false,
+                });
+            })
+        },
+    );
+    method(
+        api,
+        "scissor(on)",
+        "Limits each group of lights to its rectangle on the screen. Comes after \
+         `.repeat_for_lights`.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_repeat(open, "scissor", |repeat| repeat.scissor = on)
+        },
+    );
+    method(
+        api,
+        "stencil_mask(on)",
+        "Limits each light to the pixels inside its volume, by stencil. Comes after \
+         `.repeat_for_lights`.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_repeat(open, "stencil_mask", |repeat| repeat.stencil = on)
+        },
+    );
+}
+
+fn lights(api: &mut Api) {
+    method(
+        api,
+        "volumes(on)",
+        "Whether lights are drawn as volumes. Else each covers the whole screen.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_lights(open, "volumes", |lights| lights.volumes = on)
+        },
+    );
+    method(
+        api,
+        "volume_stencil(scheme)",
+        "How pixels inside a volume are found: `off` by one depth test, `two_pass` and `inverse` \
+         by marking stencil first.",
+        |open, arguments| {
+            let stencil = arguments.choice(0, &LightStencil::NAMES)?;
+            of_lights(open, "volume_stencil", |lights| lights.stencil = stencil)
+        },
+    );
+    method(
+        api,
+        "threshold(share)",
+        "Lights that look smaller than this share of the vertical field of view are drawn without \
+         stencil.",
+        |open, arguments| {
+            let share = arguments.number_in(0, 0.0, 10.0)? as f32;
+            of_lights(open, "threshold", |lights| lights.threshold = share)
+        },
+    );
+    method(
+        api,
+        "arrays(count)",
+        "Spreads the lights over arrays of lights that do not overlap; each array writes one \
+         channel of the colour targets.",
+        |open, arguments| {
+            let arrays = arguments.whole(0, 0, 32)? as u32;
+            of_lights(open, "arrays", |lights| lights.arrays = arrays)
+        },
+    );
+    method(
+        api,
+        "bounded_only(on)",
+        "Leaves out ambient and directional lights, which reach everything.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_lights(open, "bounded_only", |lights| lights.bounded_only = on)
+        },
+    );
+    method(
+        api,
+        "any_depth(on)",
+        "Covers every pixel through which a light can be seen at any depth: for transparent \
+         objects and multisampling.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_lights(open, "any_depth", |lights| lights.any_depth = on)
+        },
+    );
+}
+
+fn of_geometry(
+    open: Open,
+    method: &str,
+    change: impl FnOnce(&mut Geometry),
+) -> Result<(), Mistake> {
+    match &mut open.pass.kind {
+        PassKind::Geometry(geometry) => {
+            change(geometry);
+            Ok(())
+        }
+        other => Err(only_for(method, "geometry", other)),
+    }
+}
+
+fn of_repeat(open: Open, method: &str, change: impl FnOnce(&mut Repeat)) -> Result<(), Mistake> {
+    match &mut open.pass.kind {
+        PassKind::Geometry(Geometry {
+            repeat: Some(repeat),
+            ..
+        }) => {
+            change(repeat);
+            Ok(())
+        }
+        PassKind::Geometry(_) => Err(Mistake::new(format!(
+            "`.{method}` comes after `.repeat_for_lights`"
+        ))),
+        other => Err(only_for(method, "geometry", other)),
+    }
+}
+
+fn of_lights(open: Open, method: &str, change: impl FnOnce(&mut Lights)) -> Result<(), Mistake> {
+    match &mut open.pass.kind {
+        PassKind::Lights(lights) => {
+            change(lights);
+            Ok(())
+        }
+        other => Err(only_for(method, "lights", other)),
+    }
+}
