@@ -13,14 +13,16 @@ use lightbench_render::{Format, Gpu, GpuOptions, Place};
 fn look(gpu: &Gpu, format: &str, clear: [f64; 4], change: impl FnOnce(&mut Inspection)) -> [u8; 4] {
     let desc = PipelineDesc {
         targets: vec![TargetDesc {
-            name: "target".into(),
-            at: Place::default(),
-            format: Format::from_name(format).unwrap(),
             size: TargetSize::Absolute(3, 2),
+            ..TargetDesc::new(
+                "target",
+                Place::default(),
+                Format::from_name(format).unwrap(),
+            )
         }],
         ..PipelineDesc::default()
     };
-    let targets = Targets::new(gpu, &desc, (3, 2));
+    let targets = Targets::new(gpu, &desc, None, (3, 2), 0, &[]);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     fill(&mut encoder, &targets, clear);
 

@@ -233,11 +233,10 @@ impl Binder<'_> {
             self.report(
                 variable,
                 format!(
-                    "`{variable}` is {}, but the target `{}` is {} of {}",
+                    "`{variable}` is {}, but the target `{}` is {}",
                     texture.in_wgsl(),
                     target.name,
-                    target.shape.in_words(),
-                    target.format
+                    target.in_words()
                 ),
                 format!("declare it as {}", wanted.in_wgsl()),
             );
@@ -289,10 +288,9 @@ impl Binder<'_> {
             self.report(
                 variable,
                 format!(
-                    "`{variable}` does not fit the target `{}`, which is {} of {}",
+                    "`{variable}` does not fit the target `{}`, which is {}",
                     target.name,
-                    target.shape.in_words(),
-                    target.format
+                    target.in_words()
                 ),
                 format!("declare it as {right}"),
             );

@@ -121,6 +121,18 @@ impl TargetDesc {
             samples: 1,
         }
     }
+
+    /// For messages: the format, and what is unusual about its shape.
+    pub fn in_words(&self) -> String {
+        let samples = match self.samples {
+            1 => String::new(),
+            samples => format!(" with {samples} samples"),
+        };
+        match self.shape {
+            Shape::Flat => format!("{}{samples}", self.format),
+            shape => format!("{} of {}", shape.in_words(), self.format),
+        }
+    }
 }
 
 /// One mip level of one layer of a target.

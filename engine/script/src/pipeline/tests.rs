@@ -171,23 +171,16 @@ p.bogus();
         (6, "the default, 20, is not from -10 to 10"),
         (7, "a choice needs at least one option"),
         (8, "there is no parameter `exposur`"),
-        (
-            9,
-            "`.clear` comes after the `.writes` or `.depth` that it applies to",
-        ),
-        (
-            9,
-            "`.blend` comes after the `.writes` or `.depth` that it applies to",
-        ),
+        (9, "`.clear` comes after the `.writes` that it applies to"),
+        (9, "`.blend` comes after the `.writes` that it applies to"),
         (
             10,
-            "`mode` of `blend` must be `replace`, `add` or `over`, not `ad`",
+            "`mode` of `blend` must be `replace`, `add`, `over`, `premultiplied`, `min` or `max`, not `ad`",
         ),
-        (10, "the pass writes `hdr` already"),
         (11, "depth is cleared to one number"),
         (
             11,
-            "`compare` of `test` must be `nearer`, `equal` or `always`, not `less`",
+            "`compare` of `test` must be `nearer`, `strictly_nearer`, `farther`, `strictly_farther`, `equal`, `not_equal`, `always` or `never`, not `less`",
         ),
         (12, "`shaders/g.glsl` is no shader"),
         (12, "`.define` comes after `.shader`"),
@@ -200,7 +193,10 @@ p.bogus();
             "`.draws` belongs to a `geometry` pass, and this is a `fullscreen` pass",
         ),
         (13, "`.read_only` comes after `.depth`"),
-        (14, "`list` of `draws` must be `opaque`, not `all`"),
+        (
+            14,
+            "`.draws` belongs to a `geometry` pass, and this is a `lights` pass",
+        ),
         (
             14,
             "`.gather_lights` belongs to a `geometry` pass, and this is a `lights` pass",

@@ -106,9 +106,12 @@ fn begin(
                     first.at.line, first.at.file
                 )));
             }
-            found = kind(arguments)?;
             Ok(())
         });
+        match kind(arguments) {
+            Ok(kind) => found = kind,
+            Err(mistake) => pipeline.note(arguments, |_, _| Err(mistake)),
+        }
         // A pass with a wrong name is kept, so that its own mistakes are found too.
         let id = pipeline
             .lock()
