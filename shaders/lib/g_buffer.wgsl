@@ -38,3 +38,8 @@ fn unpack(position: vec3f, albedo: vec4f, normal: vec2u, power: f32) -> surface:
         vec3f(0.0),
     );
 }
+
+// The brightness of a linear Rec. 709 colour (ITU-R BT.709, item 3.2).
+fn luminance(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
+}

@@ -1,7 +1,8 @@
-// One light on one surface: every pipeline calls `evaluate_light`, and nothing else lights.
+// One light on one surface: every pipeline calls `arriving_light`, most of them through
+// `evaluate_light`, and nothing else lights.
 //
 // In:  a light, a surface with a unit normal, the unit vector to the viewer.
-// Out: reflected radiance towards the viewer.
+// Out: reflected radiance towards the viewer, or its two parts before the material's colours.
 //
 // Surface: Lambert diffuse plus normalised Blinn-Phong specular. The normalisation
 // (n + 2)(n + 4) / (8π (2^(-n/2) + n)) makes the reflected energy 1 at normal incidence
@@ -35,10 +36,18 @@ fn cone_falloff(light: scene::Light, to_light: vec3f) -> f32 {
     return edge * edge;
 }
 
-fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> vec3f {
+// What a light does to a surface but for the surface's colours, so that a pipeline may apply those
+// later: radiance = base_color · diffuse + specular · highlight.
+struct ArrivingLight {
+    diffuse: vec3f,
+    highlight: vec3f,
+}
+
+fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> ArrivingLight {
+    let nothing = ArrivingLight(vec3f(0.0), vec3f(0.0));
     if light.kind == scene::LIGHT_AMBIENT {
         // Constant radiance L from everywhere: E = πL, and Lambert reflects ρ E / π.
-        return point.base_color * light.intensity;
+        return ArrivingLight(light.intensity, vec3f(0.0));
     }
 
     var to_light = -light.direction;
@@ -47,7 +56,7 @@ fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f
         let offset = light.position - point.position;
         let distance_squared = dot(offset, offset);
         if distance_squared >= light.range * light.range {
-            return vec3f(0.0);
+            return nothing;
         }
         to_light = surface::safe_normalize(offset);
         irradiance *= distance_falloff(distance_squared, light.range);
@@ -58,10 +67,15 @@ fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f
 
     let n_dot_l = dot(point.normal, to_light);
     if n_dot_l <= 0.0 {
-        return vec3f(0.0);
+        return nothing;
     }
     let half_vector = surface::safe_normalize(to_light + to_viewer);
     let n_dot_h = saturate(dot(point.normal, half_vector));
-    let specular = point.specular * normalized_blinn_phong(n_dot_h, point.power);
-    return (point.base_color / PI + specular) * irradiance * n_dot_l;
+    let reflected = irradiance * n_dot_l;
+    return ArrivingLight(reflected / PI, normalized_blinn_phong(n_dot_h, point.power) * reflected);
+}
+
+fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> vec3f {
+    let arriving = arriving_light(light, point, to_viewer);
+    return point.base_color * arriving.diffuse + point.specular * arriving.highlight;
 }

@@ -1,0 +1,92 @@
+// Which lights can reach a part of the view: bounds of lights, tiles of the screen, clusters.
+//
+// In:  lights of the scene; rectangles of pixels; distances along the view.
+// Out: whether they may meet. Every test is conservative: it may say yes for a light that touches
+//      nothing, never no for one that does.
+#define_import_path lightbench::culling
+
+#import lightbench::scene
+
+// A sphere in view space.
+struct Sphere {
+    center: vec3f,
+    radius: f32,
+}
+
+// The four planes through the eye and the edges of a rectangle of the screen, in view space, their
+// normals pointing inward. They hold no offset since they go through the origin.
+struct Sides {
+    left: vec3f,
+    right: vec3f,
+    bottom: vec3f,
+    top: vec3f,
+}
+
+// A box in view space.
+struct Box {
+    low: vec3f,
+    high: vec3f,
+}
+
+// Distance along the view from reversed depth. From clip = a·z + b with w = -z (a is 0 where the
+// far plane is infinite).
+fn view_distance(depth: f32) -> f32 {
+    return scene::frame.projection[3][2] / (depth + scene::frame.projection[2][2]);
+}
+
+fn is_bounded(light: scene::Light) -> bool {
+    return light.kind < scene::LIGHT_DIRECTIONAL;
+}
+
+// The smallest sphere around what a bounded light can reach. For a spot of half angle a: around
+// apex and rim below 45°, around the rim up to 90°, else the whole ball.
+fn light_sphere(light: scene::Light) -> Sphere {
+    var center = light.position;
+    var radius = light.range;
+    if light.kind == scene::LIGHT_SPOT {
+        let cosine = clamp(-light.angle_offset / light.angle_scale, -1.0, 1.0);
+        if cosine > sqrt(0.5) {
+            radius = light.range / (2.0 * cosine);
+            center += light.direction * radius;
+        } else if cosine > 0.0 {
+            radius = light.range * sqrt(1.0 - cosine * cosine);
+            center += light.direction * (light.range * cosine);
+        }
+        // Rounding must not make the sphere too small.
+        radius *= 1.0001;
+    }
+    return Sphere((scene::frame.view * vec4f(center, 1.0)).xyz, radius);
+}
+
+// The planes of a rectangle of pixels, `from` inclusive, `to` exclusive.
+fn rectangle_sides(from_pixel: vec2f, to_pixel: vec2f, resolution: vec2f) -> Sides {
+    let scale = vec2f(1.0 / scene::frame.projection[0][0], 1.0 / scene::frame.projection[1][1]);
+    // Slopes x/-z and y/-z of the edges; pixels count downward.
+    let low = (vec2f(from_pixel.x, to_pixel.y) / resolution * 2.0 - 1.0) * vec2f(1.0, -1.0) * scale;
+    let high = (vec2f(to_pixel.x, from_pixel.y) / resolution * 2.0 - 1.0) * vec2f(1.0, -1.0) * scale;
+    return Sides(
+        normalize(vec3f(1.0, 0.0, low.x)),
+        normalize(vec3f(-1.0, 0.0, -high.x)),
+        normalize(vec3f(0.0, 1.0, low.y)),
+        normalize(vec3f(0.0, -1.0, -high.y)),
+    );
+}
+
+fn meets_sides(ball: Sphere, sides: Sides) -> bool {
+    let reach = -ball.radius;
+    return dot(sides.left, ball.center) >= reach
+        && dot(sides.right, ball.center) >= reach
+        && dot(sides.bottom, ball.center) >= reach
+        && dot(sides.top, ball.center) >= reach;
+}
+
+// Whether a ball meets what lies between two distances along the view.
+fn meets_range(ball: Sphere, nearest: f32, farthest: f32) -> bool {
+    return ball.radius - ball.center.z >= nearest && -ball.center.z - ball.radius <= farthest;
+}
+
+// Arvo 1990, "A Simple Method for Box-Sphere Intersection Testing", Graphics Gems.
+fn meets_box(ball: Sphere, space: Box) -> bool {
+    let outside = ball.center - clamp(ball.center, space.low, space.high);
+    return dot(outside, outside) <= ball.radius * ball.radius;
+}

@@ -1,0 +1,136 @@
+// The lights of one tile of the screen, found by one workgroup.
+//
+// In:  depths of the tile's pixels; the lights of the scene.
+// Out: for each batch of 256 lights, a mask of those that may reach the tile. A mask keeps the order
+//      of the lights, so that sums come out the same on every run, and it can't overflow.
+// Follows Andersson 2011, "DirectX 11 Rendering in Battlefield 3"; with DEPTH_MASK also Harada 2012,
+// "A 2.5D Culling for Forward+", SIGGRAPH Asia.
+//
+// All functions are called by every invocation of the workgroup, in uniform control flow.
+#define_import_path lightbench::tile_lights
+
+#import lightbench::scene
+#import lightbench::culling
+
+// Lights that are tested at once, and the words of their mask.
+const BATCH: u32 = 256u;
+const WORDS: u32 = 8u;
+// Invocations of a workgroup.
+const THREADS: u32 = #{THREADS}u * #{THREADS}u;
+
+// Distances are kept as bits: those of positive floats are ordered as the floats are.
+var<workgroup> nearest_bits: atomic<u32>;
+var<workgroup> farthest_bits: atomic<u32>;
+var<workgroup> sky_pixels: atomic<u32>;
+var<workgroup> depth_slices: atomic<u32>;
+var<workgroup> solid_mask: array<atomic<u32>, WORDS>;
+var<workgroup> clear_mask: array<atomic<u32>, WORDS>;
+
+// What lies between two distances along the view.
+struct DepthRange {
+    nearest: f32,
+    farthest: f32,
+}
+
+fn reset(thread: u32) {
+    if thread == 0u {
+        atomicStore(&nearest_bits, 0x7f7fffffu);
+        atomicStore(&farthest_bits, 0u);
+        atomicStore(&sky_pixels, 0u);
+        atomicStore(&depth_slices, 0u);
+    }
+    workgroupBarrier();
+}
+
+// Takes a pixel into account: its reversed depth, 0 for sky.
+fn add_depth(depth: f32) {
+    if depth == 0.0 {
+        atomicOr(&sky_pixels, 1u);
+        return;
+    }
+    let distance_bits = bitcast<u32>(culling::view_distance(depth));
+    atomicMin(&nearest_bits, distance_bits);
+    atomicMax(&farthest_bits, distance_bits);
+}
+
+// The distances between which the tile has opaque surfaces. Sky does not count.
+fn depth_range() -> DepthRange {
+    workgroupBarrier();
+    return DepthRange(
+        bitcast<f32>(atomicLoad(&nearest_bits)),
+        bitcast<f32>(atomicLoad(&farthest_bits)),
+    );
+}
+
+// One of 32 slices between the distances of a range.
+fn slice_of(view_distance: f32, range: DepthRange) -> u32 {
+    let share = (view_distance - range.nearest) / max(range.farthest - range.nearest, 1e-6);
+    return u32(clamp(share * 32.0, 0.0, 31.0));
+}
+
+// Marks the slice in which a pixel lies; after `depth_range`.
+fn mark_slice(depth: f32, range: DepthRange) {
+    if depth != 0.0 {
+        atomicOr(&depth_slices, 1u << slice_of(culling::view_distance(depth), range));
+    }
+}
+
+// Whether a slice with a surface lies within the ball's distances.
+fn meets_slices(ball: culling::Sphere, range: DepthRange) -> bool {
+    let first = slice_of(max(-ball.center.z - ball.radius, range.nearest), range);
+    let last = slice_of(min(-ball.center.z + ball.radius, range.farthest), range);
+    let from_first = 0xffffffffu << first;
+    let to_last = 0xffffffffu >> (31u - last);
+    return (atomicLoad(&depth_slices) & from_first & to_last) != 0u;
+}
+
+// Tests the lights from `first` on against the tile. Afterwards `solid` and `clear` tell.
+fn find(thread: u32, first: u32, sides: culling::Sides, range: DepthRange) {
+    workgroupBarrier();
+    if thread < WORDS {
+        atomicStore(&solid_mask[thread], 0u);
+        atomicStore(&clear_mask[thread], 0u);
+    }
+    workgroupBarrier();
+    // Transparent surfaces lie anywhere before the farthest opaque one, or the sky.
+    var farthest = range.farthest;
+    if atomicLoad(&sky_pixels) != 0u {
+        farthest = 3.0e38;
+    }
+    for (var i = thread; i < BATCH; i += THREADS) {
+        let index = first + i;
+        if index >= scene::frame.light_count {
+            break;
+        }
+        let light = scene::lights[index];
+        var reaches_solid = true;
+        var reaches_clear = true;
+        if culling::is_bounded(light) {
+            let ball = culling::light_sphere(light);
+            let meets = culling::meets_sides(ball, sides);
+            reaches_clear = meets && culling::meets_range(ball, 0.0, farthest);
+            reaches_solid = meets && culling::meets_range(ball, range.nearest, range.farthest);
+#ifdef DEPTH_MASK
+            reaches_solid = reaches_solid && meets_slices(ball, range);
+#endif
+        }
+        let bit = 1u << (i & 31u);
+        if reaches_solid {
+            atomicOr(&solid_mask[i >> 5u], bit);
+        }
+        if reaches_clear {
+            atomicOr(&clear_mask[i >> 5u], bit);
+        }
+    }
+    workgroupBarrier();
+}
+
+// A word of the mask of the lights that may reach opaque surfaces.
+fn solid(word: u32) -> u32 {
+    return atomicLoad(&solid_mask[word]);
+}
+
+// A word of the mask of the lights that may reach transparent surfaces.
+fn clear(word: u32) -> u32 {
+    return atomicLoad(&clear_mask[word]);
+}
