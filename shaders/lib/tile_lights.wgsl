@@ -95,7 +95,7 @@ fn find(thread: u32, first: u32, sides: culling::Sides, range: DepthRange) {
     // Transparent surfaces lie anywhere before the farthest opaque one, or the sky.
     var farthest = range.farthest;
     if atomicLoad(&sky_pixels) != 0u {
-        farthest = 3.0e38;
+        farthest = 1.0e30;
     }
     for (var i = thread; i < BATCH; i += THREADS) {
         let index = first + i;

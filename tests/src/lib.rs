@@ -71,7 +71,7 @@ impl Studio {
             .unwrap_or_else(|e| panic!("{e}"));
         let (world, assets) = (&mut self.scene.world, &self.scene.assets);
         self.renderer
-            .render(world, assets, &mut pipeline, &self.view, size, 0.0)
+            .render_whole(world, assets, &mut pipeline, &self.view, size, 0.0)
             .unwrap();
         pipeline
     }

@@ -70,7 +70,11 @@ pub fn capture(
     }
     renderer.set_frame_index(options.frame);
     let time = f64::from(options.frame) * STEP;
-    let statistics = draw(renderer, scene, pipeline, options.size, time)?.clone();
+    let view = view_of(scene);
+    let (world, assets) = (&mut scene.world, &scene.assets);
+    let statistics = renderer
+        .render_whole(world, assets, pipeline, &view, options.size, time)?
+        .clone();
     progress.report(1.0)?;
     Ok(Capture {
         output: read_output(renderer, pipeline)?,
@@ -87,9 +91,13 @@ pub(crate) fn draw<'a>(
     size: (u32, u32),
     time: f64,
 ) -> Result<&'a FrameStatistics, RenderError> {
-    lightbench_world::systems::update_world_matrices(&mut scene.world);
-    let view = View::from_world(&scene.world).unwrap_or_default();
+    let view = view_of(scene);
     renderer.render(&mut scene.world, &scene.assets, pipeline, &view, size, time)
+}
+
+fn view_of(scene: &mut Scene) -> View {
+    lightbench_world::systems::update_world_matrices(&mut scene.world);
+    View::from_world(&scene.world).unwrap_or_default()
 }
 
 /// The picture of the last frame as a display shows it.

@@ -309,9 +309,14 @@ pub struct Pipeline {
     engine_revision: u64,
     share_textures: bool,
     history_frames: u32,
+    /// What shaders saw as `frame_index`.
     last_frame: Option<u32>,
     /// Words that each buffer must have at least, as counters said.
     grown: Vec<u64>,
+    /// Whether a buffer is smaller than that.
+    outgrown: bool,
+    /// The first of the frames that it drew without another pipeline between.
+    run_began: u32,
 }
 
 impl Pipeline {
@@ -342,6 +347,8 @@ impl Pipeline {
             share_textures: true,
             history_frames: 0,
             last_frame: None,
+            outgrown: false,
+            run_began: 0,
         }
     }
 
@@ -395,7 +402,9 @@ impl Pipeline {
             };
             let counter = self.desc.counters.iter().position(|c| c.name == by.name);
             let wanted = counter.and_then(|counter| {
-                let counts = measured.iter().filter_map(|m| m.counters.get(counter));
+                // Results of frames that another pipeline drew count something else.
+                let own = measured.iter().filter(|m| m.frame >= self.run_began);
+                let counts = own.filter_map(|m| m.counters.get(counter));
                 counts.max().copied()
             });
             let has = targets.buffer(&buffer.name).map_or(0, |b| b.size() / 4);
@@ -405,10 +414,13 @@ impl Pipeline {
                 outgrown = true;
             }
         }
-        if outgrown {
-            self.targets = None;
-        }
+        self.outgrown |= outgrown;
         outgrown
+    }
+
+    /// Whether a buffer may turn out to be too small for a frame.
+    pub fn may_outgrow(&self) -> bool {
+        self.desc.buffers.iter().any(|b| b.grows_with.is_some())
     }
 
     /// Makes targets, bindings and parameters ready for a frame of that size and that number of
@@ -419,7 +431,7 @@ impl Pipeline {
         engine: EngineBuffers<'_>,
         size: (u32, u32),
         lights: u32,
-        frame: u32,
+        (serial, index): (u32, u32),
     ) -> &Targets {
         let depends_on_lights = self.depends_on_lights();
         let fits = |targets: &Targets| {
@@ -427,17 +439,22 @@ impl Pipeline {
         };
         let fresh = self.targets.take().filter(fits);
         let same_engine = self.engine_revision == engine.revision;
+        // The same frame may be drawn again.
         let followed = self
             .last_frame
-            .is_some_and(|last| last.wrapping_add(1) == frame);
+            .is_some_and(|last| last.wrapping_add(1) == index || last == index);
         if fresh.is_none() || !followed {
             self.history_frames = 0;
         } else {
             self.history_frames = self.history_frames.saturating_add(1);
         }
-        self.last_frame = Some(frame);
-        let rebind = fresh.is_none() || !same_engine;
-        let targets = fresh.unwrap_or_else(|| {
+        if !followed {
+            self.run_began = serial;
+        }
+        self.last_frame = Some(index);
+        let outgrown = std::mem::take(&mut self.outgrown);
+        let rebind = fresh.is_none() || !same_engine || outgrown;
+        let mut targets = fresh.unwrap_or_else(|| {
             let room = if depends_on_lights {
                 lights.next_power_of_two()
             } else {
@@ -453,6 +470,9 @@ impl Pipeline {
             let lives = self.share_textures.then_some(&self.lives);
             Targets::new(gpu, &self.desc, lives, size, room, &words)
         });
+        if outgrown {
+            targets.grow_buffers(gpu, &self.desc, &self.grown);
+        }
         if rebind {
             for (desc, pass) in self.desc.passes.iter().zip(&mut self.passes) {
                 pass.bind(gpu, desc, &targets, engine);

@@ -18,6 +18,11 @@ use crate::scene::Scene;
 use crate::statistics::FrameStatistics;
 use crate::view::View;
 
+/// How often a frame is drawn before a buffer that is still too small is left so.
+const MOST_ATTEMPTS: usize = 4;
+/// Seconds after which a frame that does not end is given up.
+const WAIT_SECONDS: u64 = 60;
+
 /// Draws worlds through pipelines.
 pub struct Renderer {
     gpu: Gpu,
@@ -151,7 +156,8 @@ impl Renderer {
         let started = Instant::now();
         let lights = self.scene.lights().len() as u32;
         let engine = self.scene.engine_buffers();
-        let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights, self.serial);
+        let numbers = (self.serial, self.index);
+        let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights, numbers);
         let target_bytes = targets.bytes();
         self.statistics.saved_bytes = targets.saved_bytes;
         self.frame.data.history_frames = pipeline.history_frames();
@@ -197,6 +203,32 @@ impl Renderer {
         self.statistics.target_bytes = target_bytes;
         self.serial = self.serial.wrapping_add(1);
         self.index = self.index.wrapping_add(1);
+        Ok(&self.statistics)
+    }
+
+    /// As [`Renderer::render`], but waits for the counters of pipelines whose buffers may be too
+    /// small, and draws again until all fits.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_whole(
+        &mut self,
+        world: &mut World,
+        assets: &Assets,
+        pipeline: &mut Pipeline,
+        view: &View,
+        size: (u32, u32),
+        time: f64,
+    ) -> Result<&FrameStatistics, RenderError> {
+        let index = self.index;
+        // A buffer that grew is large enough, unless another grew because of it.
+        for _ in 0..MOST_ATTEMPTS {
+            self.set_frame_index(index);
+            self.render(world, assets, pipeline, view, size, time)?;
+            if !pipeline.may_outgrow() || !pipeline.grow(&self.finish(WAIT_SECONDS)?) {
+                break;
+            }
+        }
         Ok(&self.statistics)
     }
 

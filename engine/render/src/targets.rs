@@ -187,6 +187,16 @@ impl Targets {
         }
     }
 
+    /// Makes the buffers larger that have fewer words than they need; their contents are lost.
+    pub fn grow_buffers(&mut self, gpu: &Gpu, desc: &PipelineDesc, words: &[u64]) {
+        let buffers = self.buffers.iter_mut().zip(&desc.buffers).zip(words);
+        for ((buffer, desc), words) in buffers {
+            if buffer.buffer.size() < words * 4 {
+                *buffer = allocate_buffer(gpu, desc, *words);
+            }
+        }
+    }
+
     /// The target of that name.
     pub fn get(&self, name: &str) -> Option<&Target> {
         self.targets.iter().find(|target| target.name == name)

@@ -342,6 +342,11 @@ impl Workbench {
     fn take_measurements(&mut self) {
         match self.renderer.poll() {
             Ok(results) => {
+                if let Some(pipeline) = self.pipelines.shown_pipeline()
+                    && pipeline.grow(&results)
+                {
+                    self.canvas.invalidate();
+                }
                 for measured in results {
                     self.timings.measured(&measured);
                     if let Some((scale, ms)) = self.canvas.measured(&measured) {

@@ -25,6 +25,8 @@ use series::{Missing, Series};
 
 /// Seconds after which a frame counts as hung.
 const TIMEOUT: u64 = 60;
+/// How often a frame is drawn before a pipeline's buffers must be large enough.
+const MOST_ATTEMPTS: usize = 4;
 
 /// How to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +62,9 @@ pub enum MeasureError {
     /// The scene's script failed while the scene moved.
     #[error("{0}")]
     Script(Problem),
+    /// The buffers of a pipeline were too small however much they grew.
+    #[error("the pipeline `{0}` needs more room for its lists with every frame that it draws")]
+    Outgrown(String),
     /// It was stopped before each pipeline had drawn one frame.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -152,12 +157,18 @@ fn draw_and_wait(
     size: (u32, u32),
     frame: u32,
 ) -> Result<Drawn, MeasureError> {
-    let serial = renderer.next_frame();
-    renderer.set_frame_index(frame);
-    let statistics = draw(renderer, scene, pipeline, size, f64::from(frame) * STEP)?.clone();
-    let mut queries = renderer.finish(TIMEOUT)?.into_iter();
-    Ok(Drawn {
-        statistics,
-        queries: queries.find(|measured| measured.frame == serial),
-    })
+    // A pipeline whose buffers turn out to be too small draws the frame again.
+    for _ in 0..MOST_ATTEMPTS {
+        let serial = renderer.next_frame();
+        renderer.set_frame_index(frame);
+        let statistics = draw(renderer, scene, pipeline, size, f64::from(frame) * STEP)?.clone();
+        let queries = renderer.finish(TIMEOUT)?;
+        if !pipeline.grow(&queries) {
+            return Ok(Drawn {
+                statistics,
+                queries: queries.into_iter().find(|found| found.frame == serial),
+            });
+        }
+    }
+    Err(MeasureError::Outgrown(pipeline.desc.name.clone()))
 }
