@@ -1,6 +1,6 @@
 // Clustered shading: lights meet clusters. Runs twice; first it counts, then, with FILL, it writes.
 //
-// In:  the lights; with FILL where the list of each cluster begins. TILE and SLICES as in
+// In:  the spheres around the lights; with FILL where the list of each cluster begins. TILE and SLICES as in
 //      shaders/lib/clusters.wgsl.
 // Out: the length of each cluster's list; or the lists, each in ascending order of light indices.
 // One workgroup looks after one tile: together its invocations find the lights of the tile, then
@@ -13,10 +13,10 @@
 
 // For each cluster: where its list begins, and how long it is.
 #ifdef FILL
-@group(1) @binding(0) var<storage, read> cluster_lists: array<vec2u>;
-@group(1) @binding(1) var<storage, read_write> cluster_lights: array<u32>;
+@group(1) @binding(1) var<storage, read> cluster_lists: array<vec2u>;
+@group(1) @binding(2) var<storage, read_write> cluster_lights: array<u32>;
 #else
-@group(1) @binding(0) var<storage, read_write> cluster_lists: array<vec2u>;
+@group(1) @binding(1) var<storage, read_write> cluster_lists: array<vec2u>;
 #endif
 
 @compute @workgroup_size(64)
@@ -48,9 +48,7 @@ fn compute_main(
             while bits != 0u && owns_slice {
                 let index = first + word * 32u + firstTrailingBit(bits);
                 bits &= bits - 1u;
-                let light = scene::lights[index];
-                if !culling::is_bounded(light)
-                    || culling::meets_box(culling::light_sphere(light), space) {
+                if culling::meets_box(column_lights::sphere(index), space) {
 #ifdef FILL
                     if begin + count < room {
                         cluster_lights[begin + count] = index;

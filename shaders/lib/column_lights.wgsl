@@ -1,6 +1,6 @@
 // The lights that may reach a tile of the screen at any depth, found by one workgroup, as a mask.
 //
-// In:  the lights of the scene, up to 4,096 at a time.
+// In:  the spheres around the lights, up to 4,096 at a time.
 // Out: a mask of those whose sphere meets the tile. Each cluster of the tile then tests only these.
 // Called by every invocation of the workgroup, in uniform control flow.
 #define_import_path lightbench::column_lights
@@ -12,6 +12,8 @@ const BATCH: u32 = 4096u;
 const WORDS: u32 = 128u;
 const THREADS: u32 = 64u;
 
+@group(1) @binding(0) var<storage, read> light_spheres: array<vec4f>;
+
 var<workgroup> column_mask: array<atomic<u32>, WORDS>;
 
 fn find(thread: u32, first: u32, sides: culling::Sides) {
@@ -22,13 +24,16 @@ fn find(thread: u32, first: u32, sides: culling::Sides) {
     workgroupBarrier();
     let count = min(scene::frame.light_count - first, BATCH);
     for (var i = thread; i < count; i += THREADS) {
-        let light = scene::lights[first + i];
-        if !culling::is_bounded(light)
-            || culling::meets_sides(culling::light_sphere(light), sides) {
+        if culling::meets_sides(sphere(first + i), sides) {
             atomicOr(&column_mask[i >> 5u], 1u << (i & 31u));
         }
     }
     workgroupBarrier();
+}
+
+fn sphere(light: u32) -> culling::Sphere {
+    let ball = light_spheres[light];
+    return culling::Sphere(ball.xyz, ball.w);
 }
 
 fn mask(word: u32) -> u32 {

@@ -34,13 +34,15 @@ fn view_distance(depth: f32) -> f32 {
     return scene::frame.projection[3][2] / (depth + scene::frame.projection[2][2]);
 }
 
-fn is_bounded(light: scene::Light) -> bool {
-    return light.kind < scene::LIGHT_DIRECTIONAL;
-}
+// The radius of lights that reach everything.
+const EVERYWHERE: f32 = 1.0e30;
 
-// The smallest sphere around what a bounded light can reach. For a spot of half angle a: around
-// apex and rim below 45°, around the rim up to 90°, else the whole ball.
+// The smallest sphere around what a light can reach. For a spot of half angle a: around apex and rim
+// below 45°, around the rim up to 90°, else the whole ball.
 fn light_sphere(light: scene::Light) -> Sphere {
+    if light.kind >= scene::LIGHT_DIRECTIONAL {
+        return Sphere(vec3f(0.0), EVERYWHERE);
+    }
     var center = light.position;
     var radius = light.range;
     if light.kind == scene::LIGHT_SPOT {
@@ -88,5 +90,5 @@ fn meets_range(ball: Sphere, nearest: f32, farthest: f32) -> bool {
 // Arvo 1990, "A Simple Method for Box-Sphere Intersection Testing", Graphics Gems.
 fn meets_box(ball: Sphere, space: Box) -> bool {
     let outside = ball.center - clamp(ball.center, space.low, space.high);
-    return dot(outside, outside) <= ball.radius * ball.radius;
+    return length(outside) <= ball.radius;
 }

@@ -22,6 +22,7 @@ struct Frame {
     history_frames: u32,                // frames that history targets hold; 0: they hold zeros
     padding: u32,
     previous_view_projection: mat4x4f,  // world to clip, in the frame before
+    sky: vec3f,                         // radiance of all ambient lights together
 }
 
 // One object. The rows of its affine world matrix are kept, since 3 × 4 packs without padding.

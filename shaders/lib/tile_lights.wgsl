@@ -1,7 +1,7 @@
 // The lights of one tile of the screen, found by one workgroup.
 //
-// In:  depths of the tile's pixels; the lights of the scene.
-// Out: for each batch of 256 lights, a mask of those that may reach the tile. A mask keeps the order
+// In:  depths of the tile's pixels; the spheres around the lights.
+// Out: for each batch of 1,024 lights, a mask of those that may reach the tile. A mask keeps the order
 //      of the lights, so that sums come out the same on every run, and it can't overflow.
 // Follows Andersson 2011, "DirectX 11 Rendering in Battlefield 3"; with DEPTH_MASK also Harada 2012,
 // "A 2.5D Culling for Forward+", SIGGRAPH Asia.
@@ -13,10 +13,13 @@
 #import lightbench::culling
 
 // Lights that are tested at once, and the words of their mask.
-const BATCH: u32 = 256u;
-const WORDS: u32 = 8u;
-// Invocations of a workgroup.
-const THREADS: u32 = #{THREADS}u * #{THREADS}u;
+const BATCH: u32 = 1024u;
+const WORDS: u32 = 32u;
+// Invocations of a workgroup. There are few, each with several pixels and lights: that keeps
+// barriers cheap where a processor runs the workgroup.
+const THREADS: u32 = 64u;
+
+@group(1) @binding(0) var<storage, read> light_spheres: array<vec4f>;
 
 // Distances are kept as bits: those of positive floats are ordered as the floats are.
 var<workgroup> nearest_bits: atomic<u32>;
@@ -97,23 +100,16 @@ fn find(thread: u32, first: u32, sides: culling::Sides, range: DepthRange) {
     if atomicLoad(&sky_pixels) != 0u {
         farthest = 1.0e30;
     }
-    for (var i = thread; i < BATCH; i += THREADS) {
-        let index = first + i;
-        if index >= scene::frame.light_count {
-            break;
-        }
-        let light = scene::lights[index];
-        var reaches_solid = true;
-        var reaches_clear = true;
-        if culling::is_bounded(light) {
-            let ball = culling::light_sphere(light);
-            let meets = culling::meets_sides(ball, sides);
-            reaches_clear = meets && culling::meets_range(ball, 0.0, farthest);
-            reaches_solid = meets && culling::meets_range(ball, range.nearest, range.farthest);
+    let count = min(scene::frame.light_count - first, BATCH);
+    for (var i = thread; i < count; i += THREADS) {
+        let sphere = light_spheres[first + i];
+        let ball = culling::Sphere(sphere.xyz, sphere.w);
+        let meets = culling::meets_sides(ball, sides);
+        let reaches_clear = meets && culling::meets_range(ball, 0.0, farthest);
+        var reaches_solid = meets && culling::meets_range(ball, range.nearest, range.farthest);
 #ifdef DEPTH_MASK
-            reaches_solid = reaches_solid && meets_slices(ball, range);
+        reaches_solid = reaches_solid && meets_slices(ball, range);
 #endif
-        }
         let bit = 1u << (i & 31u);
         if reaches_solid {
             atomicOr(&solid_mask[i >> 5u], bit);

@@ -1,7 +1,7 @@
 // Tiled forward shading, second pass: the list of lights of each tile.
 //
-// In:  depth of the pre-pass, with MULTISAMPLED all its samples; the lights. TILE is the side of a
-//      tile in pixels, THREADS that of the workgroup, CAPACITY the room of a list.
+// In:  depth of the pre-pass, with MULTISAMPLED all its samples; the spheres around the lights. TILE
+//      is the side of a tile in pixels, CAPACITY the room of a list.
 // Out: two lists a tile, for opaque and for transparent surfaces: the number of lights, then their
 //      indices in ascending order. What does not fit is counted.
 // Follows Harada, McKee and Yang 2012, "Forward+: Bringing Deferred Lighting to the Next Level".
@@ -10,18 +10,19 @@
 #import lightbench::tile_lights
 
 #ifdef MULTISAMPLED
-@group(1) @binding(0) var depth: texture_depth_multisampled_2d;
+@group(1) @binding(1) var depth: texture_depth_multisampled_2d;
 #else
-@group(1) @binding(0) var depth: texture_depth_2d;
+@group(1) @binding(1) var depth: texture_depth_2d;
 #endif
-@group(1) @binding(1) var<storage, read_write> tile_lists: array<u32>;
-@group(1) @binding(2) var<storage, read_write> tile_lists_transparent: array<u32>;
-@group(1) @binding(3) var<storage, read_write> tile_totals: array<atomic<u32>>;
+@group(1) @binding(2) var<storage, read_write> tile_lists: array<u32>;
+@group(1) @binding(3) var<storage, read_write> tile_lists_transparent: array<u32>;
+@group(1) @binding(4) var<storage, read_write> tile_totals: array<atomic<u32>>;
 
-// Pixels of the tile that one invocation looks at.
-const PIXELS: u32 = #{TILE}u / #{THREADS}u;
+// Invocations along a side of the workgroup, and pixels along a side that each looks at.
+const SIDE: u32 = 8u;
+const PIXELS: u32 = #{TILE}u / SIDE;
 
-@compute @workgroup_size(#{THREADS}, #{THREADS})
+@compute @workgroup_size(SIDE, SIDE)
 fn compute_main(
     @builtin(workgroup_id) tile: vec3u,
     @builtin(num_workgroups) tiles: vec3u,
@@ -33,7 +34,7 @@ fn compute_main(
 
     tile_lights::reset(thread);
     for (var p = 0u; p < PIXELS * PIXELS; p++) {
-        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * #{THREADS}u;
+        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
         if all(texel < size) {
 #ifdef MULTISAMPLED
             for (var s = 0u; s < textureNumSamples(depth); s++) {
@@ -47,7 +48,7 @@ fn compute_main(
     let range = tile_lights::depth_range();
 #ifdef DEPTH_MASK
     for (var p = 0u; p < PIXELS * PIXELS; p++) {
-        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * #{THREADS}u;
+        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
         if all(texel < size) {
 #ifdef MULTISAMPLED
             for (var s = 0u; s < textureNumSamples(depth); s++) {
@@ -66,25 +67,23 @@ fn compute_main(
     var clear_count = 0u;
     for (var first = 0u; first < scene::frame.light_count; first += tile_lights::BATCH) {
         tile_lights::find(thread, first, sides, range);
-        // Each invocation writes the lights whose bits it owns behind those of lower bits.
-        for (var i = thread; i < tile_lights::BATCH; i += tile_lights::THREADS) {
-            let lower = (1u << (i & 31u)) - 1u;
-            let own = i >> 5u;
-            var solid_at = solid_count;
-            var clear_at = clear_count;
-            for (var word = 0u; word < own; word++) {
+        // Each invocation writes the lights of one word, behind those of the words before it.
+        if thread < tile_lights::WORDS {
+            var solid_at = list + 1u + solid_count;
+            var clear_at = list + 1u + clear_count;
+            for (var word = 0u; word < thread; word++) {
                 solid_at += countOneBits(tile_lights::solid(word));
                 clear_at += countOneBits(tile_lights::clear(word));
             }
-            let solid_word = tile_lights::solid(own);
-            solid_at += countOneBits(solid_word & lower);
-            if (solid_word >> (i & 31u) & 1u) == 1u && solid_at < #{CAPACITY}u {
-                tile_lists[list + 1u + solid_at] = first + i;
+            let light = first + thread * 32u;
+            let end = list + 1u + #{CAPACITY}u;
+            for (var bits = tile_lights::solid(thread); bits != 0u && solid_at < end; solid_at++) {
+                tile_lists[solid_at] = light + firstTrailingBit(bits);
+                bits &= bits - 1u;
             }
-            let clear_word = tile_lights::clear(own);
-            clear_at += countOneBits(clear_word & lower);
-            if (clear_word >> (i & 31u) & 1u) == 1u && clear_at < #{CAPACITY}u {
-                tile_lists_transparent[list + 1u + clear_at] = first + i;
+            for (var bits = tile_lights::clear(thread); bits != 0u && clear_at < end; clear_at++) {
+                tile_lists_transparent[clear_at] = light + firstTrailingBit(bits);
+                bits &= bits - 1u;
             }
         }
         for (var word = 0u; word < tile_lights::WORDS; word++) {

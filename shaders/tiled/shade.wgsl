@@ -1,9 +1,8 @@
 // Tiled deferred shading, second pass: one workgroup finds the lights of its tile and shades it.
 //
-// In:  depth and G-buffer; the lights. TILE is the side of a tile in pixels, THREADS that of the
-//      workgroup.
+// In:  depth and G-buffer; the spheres around the lights. TILE is the side of a tile in pixels.
 // Out: linear radiance of the tile's pixels; the number of lights of each tile, for display.
-// Lights are taken 256 at a time and shaded with before the next are looked for, so that no list can
+// Lights are taken 1,024 at a time and shaded with before the next are looked for, so that no list can
 // be too long. Each pixel's sum stays in registers and is rounded once.
 // Follows Andersson 2011, "DirectX 11 Rendering in Battlefield 3", and Lauritzen 2010, "Deferred
 // Rendering for Current and Future Rendering Pipelines".
@@ -14,23 +13,25 @@
 #import lightbench::culling
 #import lightbench::tile_lights
 
-@group(1) @binding(0) var depth: texture_depth_2d;
-@group(1) @binding(1) var emitted: texture_2d<f32>;
-@group(1) @binding(2) var g_albedo: texture_2d<f32>;
-@group(1) @binding(3) var g_normal: texture_2d<u32>;
-@group(1) @binding(4) var g_power: texture_2d<f32>;
+@group(1) @binding(1) var depth: texture_depth_2d;
+@group(1) @binding(2) var emitted: texture_2d<f32>;
+@group(1) @binding(3) var g_albedo: texture_2d<f32>;
+@group(1) @binding(4) var g_normal: texture_2d<u32>;
+@group(1) @binding(5) var g_power: texture_2d<f32>;
 #ifdef FULL_FLOAT
-@group(1) @binding(5) var hdr: texture_storage_2d<rgba32float, write>;
+@group(1) @binding(6) var hdr: texture_storage_2d<rgba32float, write>;
 #else
-@group(1) @binding(5) var hdr: texture_storage_2d<rgba16float, write>;
+@group(1) @binding(6) var hdr: texture_storage_2d<rgba16float, write>;
 #endif
-@group(1) @binding(6) var<storage, read_write> tile_totals: array<atomic<u32>>;
-@group(1) @binding(7) var tile_light_count: texture_storage_2d<r32uint, write>;
+@group(1) @binding(7) var<storage, read_write> tile_totals: array<atomic<u32>>;
+@group(1) @binding(8) var tile_light_count: texture_storage_2d<r32uint, write>;
 
-const PIXELS: u32 = #{TILE}u / #{THREADS}u;
+// Invocations along a side of the workgroup, and pixels along a side that each shades.
+const SIDE: u32 = 8u;
+const PIXELS: u32 = #{TILE}u / SIDE;
 const OWN_PIXELS: u32 = PIXELS * PIXELS;
 
-@compute @workgroup_size(#{THREADS}, #{THREADS})
+@compute @workgroup_size(SIDE, SIDE)
 fn compute_main(
     @builtin(workgroup_id) tile: vec3u,
     @builtin(local_invocation_id) local: vec3u,
@@ -42,7 +43,7 @@ fn compute_main(
     var depths: array<f32, OWN_PIXELS>;
     tile_lights::reset(thread);
     for (var p = 0u; p < OWN_PIXELS; p++) {
-        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * #{THREADS}u;
+        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
         depths[p] = 0.0;
         if all(texel < size) {
             depths[p] = textureLoad(depth, texel, 0);
@@ -59,7 +60,7 @@ fn compute_main(
     var surfaces: array<surface::Surface, OWN_PIXELS>;
     var radiance: array<vec3f, OWN_PIXELS>;
     for (var p = 0u; p < OWN_PIXELS; p++) {
-        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * #{THREADS}u;
+        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
         let pixel = vec2f(texel) + 0.5;
         surfaces[p] = g_buffer::unpack(
             scene::position_from_depth(pixel, vec2f(size), depths[p]),
@@ -93,7 +94,7 @@ fn compute_main(
     }
 
     for (var p = 0u; p < OWN_PIXELS; p++) {
-        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * #{THREADS}u;
+        let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
         if all(texel < size) {
             textureStore(hdr, texel, vec4f(radiance[p], 1.0));
         }

@@ -37,6 +37,10 @@ pub struct FrameData {
     pub padding: u32,
     /// World to clip in the frame before.
     pub previous_view_projection: Mat4,
+    /// Radiance of all ambient lights together.
+    pub sky: Vec3,
+    /// Fills the structure to 16 bytes.
+    pub reserved: u32,
 }
 
 /// One object; `Instance` in WGSL.
@@ -215,6 +219,7 @@ mod tests {
                     "previous_view_projection",
                     offset_of!(FrameData, previous_view_projection),
                 ),
+                ("sky", offset_of!(FrameData, sky)),
             ],
         );
         check::<InstanceData>(

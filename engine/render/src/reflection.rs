@@ -9,6 +9,7 @@ use naga::{
 
 use crate::description::{Shape, TargetDesc};
 use crate::format::Format;
+use crate::shader::undecorate;
 
 /// The kind of numbers in a texture or a fragment output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -235,7 +236,8 @@ pub fn reflect(module: &naga::Module) -> Reflection {
         let Some(binding) = &global.binding else {
             continue;
         };
-        let name = global.name.clone().unwrap_or_default();
+        // Variables of imported modules have decorated names.
+        let name = undecorate(global.name.as_deref().unwrap_or_default());
         let inner = &module.types[global.ty].inner;
         match (binding.group, binding.binding) {
             (1, number) => reflection.bindings.push(TargetBinding {

@@ -278,14 +278,16 @@ impl ShaderComposer {
 }
 
 /// Turns naga_oil's decorated names (`positionX_naga_oil_mod_XNRUWO…X`) into plain ones.
-fn undecorate(message: &str) -> String {
+pub(crate) fn undecorate(message: &str) -> String {
     const MARK: &str = "X_naga_oil_mod_X";
     let mut plain = String::with_capacity(message.len());
     let mut rest = message;
     while let Some(at) = rest.find(MARK) {
         plain.push_str(&rest[..at]);
         let after = &rest[at + MARK.len()..];
-        let end = after.find('X').map_or(after.len(), |end| end + 1);
+        // The module's name in base 32, which may hold an X itself, and then an X.
+        let base_32 = |c: char| c.is_ascii_uppercase() || ('2'..='7').contains(&c);
+        let end = after.find(|c| !base_32(c)).unwrap_or(after.len());
         rest = &after[end..];
     }
     plain.push_str(rest);

@@ -41,6 +41,8 @@ pub struct VolumeDraw {
     pub volumes: std::ops::Range<u32>,
 }
 
+/// The kind of ambient lights.
+pub(crate) const AMBIENT: u32 = 3;
 const DIRECTIONAL: u32 = 2;
 const SPOT: u32 = 1;
 

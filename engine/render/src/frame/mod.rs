@@ -151,6 +151,7 @@ impl Frame {
         request: &FrameRequest<'_>,
     ) {
         let volume = self.camera(request, lights.len());
+        self.data.sky = sky(lights);
         self.drawn.clear();
         self.object_lights.clear();
         self.lists
@@ -193,6 +194,8 @@ impl Frame {
             frame_index: request.index,
             history_frames: 0,
             padding: 0,
+            sky: Vec3::ZERO,
+            reserved: 0,
             previous_view_projection: if request.index == 0 {
                 view_projection
             } else {
@@ -345,6 +348,12 @@ impl Frame {
             }
         }
     }
+}
+
+/// The radiance that all ambient lights together send from everywhere.
+fn sky(lights: &[LightData]) -> Vec3 {
+    let ambient = lights.iter().filter(|light| light.kind == volumes::AMBIENT);
+    ambient.map(|light| light.intensity).sum()
 }
 
 fn material_traits(assets: &Assets, id: MaterialId) -> (bool, bool) {
