@@ -7,7 +7,7 @@
 
 #import lightbench::scene
 
-// A sphere in view space.
+// A sphere in view space, or in world space where a function says so.
 struct Sphere {
     center: vec3f,
     radius: f32,
@@ -22,7 +22,7 @@ struct Sides {
     top: vec3f,
 }
 
-// A box in view space.
+// A box in the space of the sphere that it is tested against.
 struct Box {
     low: vec3f,
     high: vec3f,
@@ -37,9 +37,9 @@ fn view_distance(depth: f32) -> f32 {
 // The radius of lights that reach everything.
 const EVERYWHERE: f32 = 1.0e30;
 
-// The smallest sphere around what a light can reach. For a spot of half angle a: around apex and rim
+// The smallest sphere in world space around what a light can reach. For a spot of half angle a: around apex and rim
 // below 45°, around the rim up to 90°, else the whole ball.
-fn light_sphere(light: scene::Light) -> Sphere {
+fn world_sphere(light: scene::Light) -> Sphere {
     if light.kind >= scene::LIGHT_DIRECTIONAL {
         return Sphere(vec3f(0.0), EVERYWHERE);
     }
@@ -57,7 +57,13 @@ fn light_sphere(light: scene::Light) -> Sphere {
         // Rounding must not make the sphere too small.
         radius *= 1.0001;
     }
-    return Sphere((scene::frame.view * vec4f(center, 1.0)).xyz, radius);
+    return Sphere(center, radius);
+}
+
+// The same in view space.
+fn light_sphere(light: scene::Light) -> Sphere {
+    let ball = world_sphere(light);
+    return Sphere((scene::frame.view * vec4f(ball.center, 1.0)).xyz, ball.radius);
 }
 
 // The planes of a rectangle of pixels, `from` inclusive, `to` exclusive.
