@@ -221,6 +221,10 @@ impl Renderer {
         time: f64,
     ) -> Result<&FrameStatistics, RenderError> {
         let index = self.index;
+        if pipeline.may_outgrow() {
+            // Results of earlier frames that nobody took would leave no room for this one's.
+            self.finish(WAIT_SECONDS)?;
+        }
         // A buffer that grew is large enough, unless another grew because of it.
         for _ in 0..MOST_ATTEMPTS {
             self.set_frame_index(index);
