@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod bench_frame;
 mod check_pipeline;
 mod compare;
 mod diff;
@@ -116,7 +117,7 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Copy(arguments) => new::copy(&arguments, &files()?),
         Command::CheckPipeline(arguments) => check_pipeline::run(&arguments, files()?),
         Command::Doctor => doctor::run(&files()?),
-        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments, files),
     }
 }
 

@@ -87,7 +87,7 @@ pub(crate) fn draw<'a>(
     size: (u32, u32),
     time: f64,
 ) -> Result<&'a FrameStatistics, RenderError> {
-    lightbench_world::systems::update_world_matrices(&mut scene.world);
+    scene.refresh();
     let view = View::from_world(&scene.world).unwrap_or_default();
     renderer.render(&mut scene.world, &scene.assets, pipeline, &view, size, time)
 }

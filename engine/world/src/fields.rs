@@ -256,7 +256,15 @@ mod tests {
             .collect();
         assert_eq!(
             shown,
-            ["Transform", "MeshRenderer", "Light", "Camera", "Name"]
+            [
+                "Transform",
+                "MeshRenderer",
+                "Light",
+                "Camera",
+                "Name",
+                "Velocity",
+                "RigidAnimation"
+            ]
         );
     }
 

@@ -65,7 +65,7 @@ pub use merge::{EntityMap, Snapshot};
 pub use messages::{Mailbox, Outbox};
 pub use query::Join;
 pub use row_map::RowOrder;
-pub use schedule::Schedule;
+pub use schedule::{Schedule, SystemTime};
 pub use sets::EntitySets;
 pub use stores::Stored;
 pub use systems::MeshBounds;

@@ -7,7 +7,7 @@ use std::cell::Cell;
 use glam::camera::rh::proj::directx;
 use glam::{Affine3A, Quat, Vec3};
 use lightbench_world::culling::{Culler, Frustum, cull_spheres};
-use lightbench_world::systems::{animate, motion_schedule, update_bounds, update_world_matrices};
+use lightbench_world::systems::{FrameSystems, animate, update_bounds, update_world_matrices};
 use lightbench_world::{
     Entity, Light, LightKind, Mailbox, MeshBounds, MeshRenderer, Transform, Velocity, World,
     WorldBounds,
@@ -86,10 +86,9 @@ fn a_steady_frame_allocates_nothing() {
     });
     assert_eq!(frame, 0, "systems and culling");
 
-    // Handing work to other threads allocates now and then; the systems do not.
-    let mut schedule = motion_schedule();
-    let scheduled = allocations(|| schedule.run(&mut world, 0.01));
-    assert!(scheduled < 50, "schedule: {scheduled}");
+    let mut systems = FrameSystems::default();
+    let scheduled = allocations(|| systems.run(&mut world, &bounds, 1.0, 0.01));
+    assert_eq!(scheduled, 0, "schedule");
 
     let mut mailbox = Mailbox::<(u32, f32)>::default();
     let messages = allocations(|| {

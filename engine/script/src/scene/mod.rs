@@ -9,6 +9,7 @@ mod lights;
 mod list;
 mod materials;
 mod models;
+mod motion;
 mod parameters;
 mod shapes;
 mod state;
@@ -18,7 +19,8 @@ use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, Progress};
 use lightbench_render::problem::suggestion;
 use lightbench_render::{Place, Problem, Problems};
-use lightbench_world::{Camera, Entity, World};
+use lightbench_world::systems::{FrameSystems, update_computed};
+use lightbench_world::{Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
 use rhai::{AST, Dynamic, EvalAltResult, Module, Scope};
 
 use crate::host::{Extras, Host, find};
@@ -50,6 +52,10 @@ pub struct Scene {
     update: Option<AST>,
     /// Whether an update failed; the script is not called again.
     stopped: bool,
+    /// What moves and computes beside the script.
+    systems: FrameSystems,
+    /// What the script took in the last step.
+    script_time: Option<SystemTime>,
 }
 
 impl std::fmt::Debug for Scene {
@@ -111,6 +117,8 @@ pub fn load_scene_within(
         stage,
         update,
         stopped: false,
+        systems: FrameSystems::default(),
+        script_time: None,
     };
     scene
         .host
@@ -146,6 +154,7 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
                 let made = Stage::new(files, settings, limits, watch, log, progress);
                 parameters::register(api, &made);
                 entities::register(api, &made);
+                motion::register(api, &made);
                 bounds::register(api, &made);
                 shapes::register(api, &made);
                 textures::register(api, &made);
@@ -224,15 +233,47 @@ impl Scene {
         self.parameters = data.parameters.clone();
         std::mem::swap(&mut self.world, &mut data.world);
         std::mem::swap(&mut self.assets, &mut data.assets);
+        drop(data);
+        // Listed from the start, and not called yet.
+        self.script_time = self
+            .update
+            .is_some()
+            .then(|| SystemTime::of("script", || ()).0);
+        self.run_systems(0.0, 0.0);
         Ok(())
     }
 
-    /// Calls the script's `update(time, dt)`, where it has one.
+    /// Brings the scene to the next moment: calls the script's `update(time, dt)`, where it has
+    /// one, and runs all systems of the world. `dt` is the step that ends at `time`, in seconds;
+    /// the same steps give the same scene, however long they take.
     ///
     /// # Errors
-    /// What went wrong in the script, once: after an error the script is not called again, and what
-    /// it had changed stays.
+    /// What went wrong in the script, once: after an error the script is not called again, what it
+    /// had changed stays, and the systems go on.
     pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
+        let (took, result) = SystemTime::of("script", || self.call_update(time, dt));
+        self.script_time = self.update.is_some().then_some(took);
+        self.run_systems(time, dt);
+        result
+    }
+
+    fn run_systems(&mut self, time: f64, dt: f64) {
+        let meshes = self.assets.mesh_bounds();
+        self.systems.run(&mut self.world, meshes, time, dt as f32);
+    }
+
+    /// Brings what the systems compute up to date with changes from outside, without letting time
+    /// pass.
+    pub fn refresh(&mut self) {
+        update_computed(&mut self.world, self.assets.mesh_bounds());
+    }
+
+    /// What the script and each system took in the last step.
+    pub fn system_times(&self) -> impl Iterator<Item = SystemTime> + '_ {
+        self.script_time.iter().cloned().chain(self.systems.times())
+    }
+
+    fn call_update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
         let Some(call) = self.update.clone().filter(|_| !self.stopped) else {
             return Ok(());
         };
@@ -285,6 +326,14 @@ impl Scene {
     #[must_use]
     pub fn has_update(&self) -> bool {
         self.update.is_some() && !self.stopped
+    }
+
+    /// Whether anything changes as time passes: by the script, or by a component.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.has_update()
+            || !self.world.columns::<Velocity>().is_empty()
+            || !self.world.columns::<RigidAnimation>().is_empty()
     }
 
     /// The camera that the view is drawn from: the first active one.
