@@ -41,6 +41,7 @@ mod row_map;
 pub mod scene_file;
 pub mod schedule;
 mod sets;
+mod settled;
 mod stores;
 pub mod systems;
 mod ticks;

@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(read, c);
         // A second report replaces the first and leaves no temporary files.
         write_report(&mut c, &place).unwrap();
-        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 7);
+        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 8);
     }
 
     #[test]

@@ -76,12 +76,9 @@ fn system_table(w: &mut Writer, c: &Comparison) {
             row
         })
         .collect();
-    table(
-        w,
-        "Systems, ms of CPU time of the thread that ran each, a frame.",
-        &columns,
-        &rows,
-    );
+    // The driver has no part in them, whether it is software or not.
+    let caption = "Systems, ms of the CPU thread that ran each, a frame.";
+    table(w, caption, &columns, &rows);
 }
 
 fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
