@@ -375,6 +375,10 @@ fn every_function_of_numbers_is_tried_with_both() {
         "animate_rotation",
         "animate_scale",
         "animation_repeat",
+        "load_gltf",
+        "load_model",
+        "model_mesh",
+        "model_texture",
     ];
     let all = CALLS.join("\n");
     for entry in scene_names().entries() {

@@ -1,4 +1,4 @@
-//! Scene files: `scripts/scenes/*.rhai` build worlds and move them.
+//! Scene files: `scripts/scenes/*.rhai` build worlds and move them, `*.scene` hold them.
 
 mod bounds;
 mod cameras;
@@ -11,6 +11,8 @@ mod materials;
 mod models;
 mod motion;
 mod parameters;
+mod recipes;
+mod saved;
 mod shapes;
 mod state;
 mod textures;
@@ -29,9 +31,11 @@ use crate::log::LogLine;
 use crate::names::{Names, list as enumerate};
 use crate::settings::Settings;
 use data::Stage;
+use saved::Textures;
 
 pub use list::{SceneEntry, list_scenes};
 pub use parameters::{SceneParameter, SceneParameterKind};
+pub use saved::EXTENSION as SCENE_EXTENSION;
 
 /// The folder of the scene files.
 pub const SCENES: &str = "scripts/scenes";
@@ -68,9 +72,10 @@ impl std::fmt::Debug for Scene {
     }
 }
 
-/// Runs a scene file.
+/// Runs a scene file, or reads one that holds a world.
 ///
-/// `name_or_path` is a name as in `atrium`, or a path from the project's folder. `settings` gives
+/// `name_or_path` is a name as in `atrium`, or a path from the project's folder; a path that ends
+/// in `.scene` is that of a world. `settings` gives
 /// values to the parameters that the file declares. Runs on the calling thread; give it one of its
 /// own where a window must stay alive, and stop it through `progress`.
 ///
@@ -102,24 +107,16 @@ pub fn load_scene_within(
         let stopped = Problem::new(Place::file(path), "the script was stopped");
         return Err(stopped.into());
     }
-    let (host, stage) = host(files, settings, limits, progress);
+    if path.ends_with(&format!(".{}", saved::EXTENSION)) {
+        return saved::load(files, &path, settings, progress, limits);
+    }
+    let (host, stage, _) = host(files, settings, limits, progress);
     let ast = host.load(&path)?;
     let update = update_call(&host, &path)?;
     host.watch.start(limits.load_time);
     let module = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine)
         .map_err(|error| host.compiler.explain(&error, &path))?;
-    let mut scene = Scene {
-        world: World::new(),
-        assets: Assets::new(),
-        parameters: Vec::new(),
-        path,
-        host,
-        stage,
-        update,
-        stopped: false,
-        systems: FrameSystems::default(),
-        script_time: None,
-    };
+    let mut scene = Scene::new(path, host, stage, update);
     scene
         .host
         .engine
@@ -134,7 +131,7 @@ const SCRIPT_MODULE: &str = "scene_script";
 /// The names of everything that scene scripts can call.
 #[must_use]
 pub fn scene_names() -> Names {
-    let (host, _) = host(
+    let (host, ..) = host(
         &Files::shipped(),
         &Settings::new(),
         &Limits::default(),
@@ -143,8 +140,14 @@ pub fn scene_names() -> Names {
     host.compiler.names.clone()
 }
 
-fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress) -> (Host, Stage) {
+fn host(
+    files: &Files,
+    settings: &Settings,
+    limits: &Limits,
+    progress: &Progress,
+) -> (Host, Stage, Textures) {
     let mut stage = None;
+    let defined = Textures::default();
     let host = Host::new(
         files,
         limits,
@@ -158,6 +161,7 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
                 bounds::register(api, &made);
                 shapes::register(api, &made);
                 textures::register(api, &made);
+                saved::register(api, &defined);
                 materials::register(api, &made);
                 models::register(api, &made);
                 lights::register(api, &made);
@@ -170,7 +174,7 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
     );
     let stage = stage
         .unwrap_or_else(|| Stage::new(files, settings, limits, &host.watch, &host.log, progress));
-    (host, stage)
+    (host, stage, defined)
 }
 
 /// What calls the script's `update`, with as many arguments as it takes.
@@ -203,6 +207,21 @@ fn update_call(host: &Host, path: &str) -> Result<Option<AST>, Problem> {
 }
 
 impl Scene {
+    fn new(path: String, host: Host, stage: Stage, update: Option<AST>) -> Self {
+        Self {
+            world: World::new(),
+            assets: Assets::new(),
+            parameters: Vec::new(),
+            path,
+            host,
+            stage,
+            update,
+            stopped: false,
+            systems: FrameSystems::default(),
+            script_time: None,
+        }
+    }
+
     /// Takes over what the script made, and checks that everything that was set has been used.
     fn finish(&mut self) -> Result<(), Problems> {
         let mut data = self.stage.lock();
@@ -371,5 +390,7 @@ const _: fn() = || {
     assert_send::<Scene>();
 };
 
+#[cfg(test)]
+mod saved_tests;
 #[cfg(test)]
 mod tests;
