@@ -49,9 +49,8 @@ impl Studio {
     /// A shipped scene on a device.
     pub fn on(gpu: Gpu, scene: &str, settings: &Settings) -> Self {
         let files = Files::shipped();
-        let mut scene = load_scene(&files, scene, settings, &Progress::default())
+        let scene = load_scene(&files, scene, settings, &Progress::default())
             .unwrap_or_else(|e| panic!("{e}"));
-        lightbench::world::systems::update_world_matrices(&mut scene.world);
         let view = View::from_world(&scene.world).unwrap_or_default();
         Self {
             renderer: Renderer::new(gpu),

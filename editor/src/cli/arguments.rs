@@ -64,7 +64,7 @@ impl GpuArguments {
 /// What a scene is filled with.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArguments {
-    /// The OBJ file that the scene `showroom` shows; it may lie anywhere
+    /// The OBJ or glTF file that the scene `showroom` shows; it may lie anywhere
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// A value for a parameter, as in `--set lights=256`; may be given again. Write `scene.NAME`,

@@ -2,9 +2,11 @@
 
 use clap::{Args, Subcommand};
 use lightbench::assets::Progress;
+use lightbench::assets::files::Files;
 use lightbench::world::layouts;
 
 use super::arguments::{GpuArguments, Size};
+use super::bench_frame::{self, FrameArguments};
 use super::progress::Bar;
 use super::report::say;
 use crate::ui::reload_bench::{self, ReloadBench};
@@ -17,6 +19,7 @@ use crate::ui::reload_bench::{self, ReloadBench};
 Examples:
   lightbench bench world
   lightbench bench world --objects 100000
+  lightbench bench frame many_lights --set spheres=10000
   lightbench bench reload --size 320x180 --edits 20"
 )]
 pub struct Arguments {
@@ -38,6 +41,8 @@ enum What {
         )]
         objects: u32,
     },
+    /// Moves a scene from frame to frame and says what each system and the extraction take
+    Frame(FrameArguments),
     /// Saves a shader again and again, and says how long it takes until the picture has changed
     Reload {
         /// The scene that is drawn, through deferred shading
@@ -63,12 +68,16 @@ enum What {
 ///
 /// # Errors
 /// No driver, or a picture that does not change.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub fn run(
+    arguments: &Arguments,
+    files: impl FnOnce() -> anyhow::Result<Files>,
+) -> anyhow::Result<()> {
     match &arguments.what {
         What::World { objects } => {
             let report = layouts::measure(*objects as usize);
             say(report.to_string().trim_end())
         }
+        What::Frame(arguments) => bench_frame::run(arguments, files()?),
         What::Reload {
             scene,
             size,

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod bench_frame;
 mod check_pipeline;
 mod compare;
 mod diff;
@@ -15,6 +16,7 @@ mod progress;
 mod project;
 mod render;
 mod report;
+mod save;
 mod settings;
 
 use std::path::PathBuf;
@@ -61,6 +63,8 @@ enum Command {
     Compare(compare::Arguments),
     /// Says how far apart two pictures are
     Diff(diff::Arguments),
+    /// Writes a scene to a file that holds its entities instead of a script
+    Save(save::Arguments),
     /// Lists pipelines, scenes, adapters or files
     List(list::Arguments),
     /// Makes a project for scenes, pipelines and shaders of your own
@@ -111,12 +115,13 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Render(arguments) => render::run(&arguments, files()?),
         Command::Compare(arguments) => compare::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
+        Command::Save(arguments) => save::run(&arguments, files()?),
         Command::List(arguments) => list::run(&arguments, &files()?),
         Command::New(arguments) => new::new(&arguments),
         Command::Copy(arguments) => new::copy(&arguments, &files()?),
         Command::CheckPipeline(arguments) => check_pipeline::run(&arguments, files()?),
         Command::Doctor => doctor::run(&files()?),
-        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments, files),
     }
 }
 

@@ -28,7 +28,10 @@ pub fn open(project: Option<&Path>) -> anyhow::Result<Files> {
 /// # Errors
 /// A path to nothing.
 pub fn script(files: &mut Files, name_or_path: &str) -> anyhow::Result<String> {
-    let is_path = name_or_path.contains(['/', '\\']) || name_or_path.ends_with(".rhai");
+    let is_path = name_or_path.contains(['/', '\\'])
+        || [".rhai", ".scene"]
+            .iter()
+            .any(|end| name_or_path.ends_with(end));
     let on_disk = Path::new(name_or_path);
     if !is_path {
         return Ok(name_or_path.to_owned());

@@ -7,7 +7,7 @@
 //!   changed.
 //! - [`files`] is the one door to the disk: shipped data inside the program,
 //!   covered by the files of a student's project.
-//! - [`obj`] and [`images`] read what other programs made.
+//! - [`obj`], [`mod@gltf`] and [`images`] read what other programs made.
 //! - [`watch`] tells when files change, and [`Task`] works on a thread of its own.
 //! - [`procedural`] and [`procedural_texture`] make geometry and pictures from
 //!   parameters.
@@ -46,6 +46,7 @@ pub mod color;
 pub mod files;
 #[cfg(test)]
 mod fuzz;
+pub mod gltf;
 pub mod images;
 mod material;
 mod mesh;

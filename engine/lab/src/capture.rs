@@ -96,7 +96,7 @@ pub(crate) fn draw<'a>(
 }
 
 fn view_of(scene: &mut Scene) -> View {
-    lightbench_world::systems::update_world_matrices(&mut scene.world);
+    scene.refresh();
     View::from_world(&scene.world).unwrap_or_default()
 }
 

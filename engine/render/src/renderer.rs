@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use lightbench_assets::Assets;
-use lightbench_world::{World, systems};
+use lightbench_world::{SystemTime, World, systems};
 
 use crate::compile::Compiler;
 use crate::frame::{Frame, FrameRequest};
@@ -106,8 +106,8 @@ impl Renderer {
 
     /// Draws one frame and submits it. Results of queries come later: [`Renderer::poll`].
     ///
-    /// Runs the world's systems, extracts what is visible, uploads what changed and records the
-    /// passes. `size` is in pixels, `time` in seconds since the scene began.
+    /// Brings the world's computed columns up to date, extracts what is visible, uploads what
+    /// changed and records the passes. `size` is in pixels, `time` in seconds since the scene began.
     ///
     /// # Errors
     /// When the scene does not fit the device, or the device failed.
@@ -132,10 +132,9 @@ impl Renderer {
         self.gpu.check()?;
 
         let started = Instant::now();
-        systems::update_world_matrices(world);
-        systems::update_bounds(world, assets.mesh_bounds());
+        systems::update_computed(world, assets.mesh_bounds());
         self.scene.sync_assets(assets).map_err(RenderError::Scene)?;
-        self.scene.sync_world(world);
+        let (copying, ()) = SystemTime::of("changed rows", || self.scene.sync_world(world));
         let request = FrameRequest {
             view: *view,
             size: (width, height),
@@ -144,13 +143,13 @@ impl Renderer {
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
         };
-        self.frame.extract(
-            world,
-            assets,
-            self.scene.instances(),
-            self.scene.lights(),
-            &request,
-        );
+        let (extraction, ()) = SystemTime::of("extraction", || {
+            let (instances, lights) = (self.scene.instances(), self.scene.lights());
+            self.frame
+                .extract(world, assets, instances, lights, &request);
+        });
+        self.statistics.systems.clear();
+        self.statistics.systems.extend([copying, extraction]);
         self.statistics.extract_ms = started.elapsed().as_secs_f64() * 1e3;
 
         let started = Instant::now();

@@ -39,6 +39,8 @@ pub struct PassStatistics {
 pub struct FrameStatistics {
     /// One entry a pass, in the order of the description.
     pub passes: Vec<PassStatistics>,
+    /// What it took to copy changed rows and to extract the frame, as time of the calling thread.
+    pub systems: Vec<lightbench_world::SystemTime>,
     /// From the beginning of the first pass to the end of the last on the GPU, milliseconds.
     pub gpu_ms: Option<f64>,
     /// Systems: world matrices, bounds, culling, sorting, binning; milliseconds on the CPU.

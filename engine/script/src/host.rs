@@ -128,7 +128,7 @@ impl Host {
 /// The file that a name or a path means: `atrium` is `scripts/scenes/atrium.rhai`.
 pub(crate) fn find(files: &Files, folder: &str, name_or_path: &str) -> Result<String, Problem> {
     let asked = name_or_path.trim();
-    let is_path = asked.contains('/') || asked.ends_with(".rhai");
+    let is_path = asked.contains('/') || asked.ends_with(".rhai") || asked.ends_with(".scene");
     let path = if is_path {
         asked.to_owned()
     } else {

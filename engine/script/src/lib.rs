@@ -41,7 +41,7 @@ pub use memory::CountingAllocator;
 pub use names::{Entry, Names};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
-    SCENES, Scene, SceneEntry, SceneParameter, SceneParameterKind, list_scenes, load_scene,
-    load_scene_within, scene_names,
+    SCENE_EXTENSION, SCENES, Scene, SceneEntry, SceneParameter, SceneParameterKind, list_scenes,
+    load_scene, load_scene_within, scene_names,
 };
 pub use settings::{SettingValue, Settings};

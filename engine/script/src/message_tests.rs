@@ -267,6 +267,7 @@ const CALLS: &[&str] = &[
     "let r = random(7); [r.float(), r.range(1, 2), r.int(1, 6), r.normal(0, 1), r.chance(1)]",
     "spawn().at(1, 2, 3).move(1, 0, 0).turn(10, 20, 30).rotate(1, 2, 3).scale(2).position",
     "spawn().scale(1, 2, 3).size",
+    "spawn().velocity(1, 2, 3).spin(0, 90, 0).animation_speed(2).animation_start(1).position",
     "let e = spawn(); e.size = 2; e.size",
     "spawn().look_at(1, 2, 3).rotation.angles + spawn().aim(1, 2, 3).rotation.angles",
     "point_light().color(1, 1, 1).intensity(3).range(5).intensity",
@@ -370,6 +371,14 @@ fn every_function_of_numbers_is_tried_with_both() {
         "camera",
         "colors",
         "name",
+        "animate_position",
+        "animate_rotation",
+        "animate_scale",
+        "animation_repeat",
+        "load_gltf",
+        "load_model",
+        "model_mesh",
+        "model_texture",
     ];
     let all = CALLS.join("\n");
     for entry in scene_names().entries() {

@@ -2,13 +2,11 @@
 
 use std::marker::PhantomData;
 
-use crate::bits::{BitSet, Scratch};
-use crate::columns::Columns;
 use crate::components::{Family, Stores};
 use crate::entity::Entity;
 use crate::reflect::Role;
 use crate::sets::{GROUPED, TAGGED};
-use crate::stores::{Stored, VisitorMut};
+use crate::stores::Stored;
 use crate::ticks::Tick;
 use crate::world::World;
 
@@ -106,11 +104,12 @@ impl World {
         let bundles = bundles.into_iter();
         let announced = bundles.size_hint().0;
         let now = self.clock.now();
+        let stores = self.stores.get_mut();
         self.entities.reserve(announced);
-        B::prepare(&mut self.stores, announced, now);
-        let before = B::entities(&self.stores).len();
+        B::prepare(stores, announced, now);
+        let before = B::entities(stores).len();
         let mut open = OpenBatch::<B> {
-            stores: &mut self.stores,
+            stores,
             spawned: Vec::with_capacity(CHUNK),
             now,
             bundles: PhantomData,
@@ -123,52 +122,29 @@ impl World {
             }
         }
         drop(open);
-        &B::entities(&self.stores)[before..]
+        &B::entities(self.stores.get())[before..]
     }
 
-    /// Removes many entities with their components and descendants, column by
-    /// column. Stale handles and repetitions are skipped. Returns how many
-    /// entities were removed.
+    /// Removes many entities with their components and descendants. Stale handles
+    /// and repetitions are skipped. Returns how many entities were removed.
     pub fn despawn_batch(&mut self, entities: &[Entity]) -> usize {
-        let mut slots = BitSet::default();
-        slots.reset(self.entities.slots());
-        let mut removed = 0;
-        let mut present = 0;
-        let mut free = |world: &mut Self, entity: Entity| {
-            if let Some(bits) = world.entities.despawn(entity) {
-                slots.insert(entity.index() as usize);
-                removed += 1;
-                present |= bits;
-                world.leave_sets(entity, bits);
-            }
-        };
+        let before = self.len();
         for &entity in entities {
-            if self.entities.components(entity) & FAMILY != 0 {
-                self.unlink(entity);
-                for descendant in self.descendants(entity) {
-                    free(self, descendant);
-                }
-            }
-            free(self, entity);
+            self.despawn(entity);
         }
-        self.stores.visit_mut(&mut DiscardSlots {
-            slots,
-            present,
-            now: self.clock.now(),
-            scratch: Scratch::default(),
-        });
-        removed
+        before - self.len()
     }
 
-    /// Removes one entity's components and gives its slot back.
+    /// Makes an entity's handle stale and gives its slot back. Its rows go with
+    /// the next look at the columns.
+    #[inline]
     pub(crate) fn free(&mut self, entity: Entity) {
-        if let Some(components) = self.entities.despawn(entity) {
-            self.stores.visit_mut(&mut Discard {
-                entity,
-                components,
-                now: self.clock.now(),
-            });
-            self.leave_sets(entity, components);
+        if let Some(bits) = self.entities.despawn(entity) {
+            if bits & !(TAGGED | GROUPED) != 0 {
+                let (slots, now) = (self.entities.slots(), self.clock.now());
+                self.stores.bury(entity, bits, slots, now);
+            }
+            self.leave_sets(entity, bits);
         }
     }
 
@@ -207,40 +183,6 @@ impl<B: Bundle> Drop for OpenBatch<'_, B> {
 
 /// The bit of entities that are in a tree.
 pub(crate) const FAMILY: u32 = 1 << Family::KIND as u32;
-
-/// Drops the rows of one entity.
-struct Discard {
-    entity: Entity,
-    components: u32,
-    now: Tick,
-}
-
-impl VisitorMut for Discard {
-    #[inline]
-    fn visit<C: Stored>(&mut self, columns: &mut Columns<C>) {
-        if self.components & (1 << C::KIND as u32) != 0 {
-            columns.set_now(self.now);
-            columns.discard(self.entity);
-        }
-    }
-}
-
-/// Drops the rows of all entities of some slots.
-struct DiscardSlots {
-    slots: BitSet,
-    present: u32,
-    now: Tick,
-    scratch: Scratch,
-}
-
-impl VisitorMut for DiscardSlots {
-    fn visit<C: Stored>(&mut self, columns: &mut Columns<C>) {
-        if self.present & (1 << C::KIND as u32) != 0 {
-            columns.set_now(self.now);
-            columns.discard_slots(&self.slots, &mut self.scratch);
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests {

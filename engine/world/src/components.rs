@@ -199,7 +199,7 @@ components! {
 
     /// Moves the entity evenly, in its parent's space.
     #[derive(Copy)]
-    velocity: Velocity, Hidden {
+    velocity: Velocity, Shown {
         /// Change of the translation.
         linear: Vec3 = Vec3::ZERO, "m/s", ANY;
         /// Axis of the turn in the parent's space, as long as the turn is fast.
@@ -208,7 +208,7 @@ components! {
 
     /// Moves the entity along keyframed curves. A curve without keys leaves its
     /// part of the Transform alone.
-    rigid_animation: RigidAnimation, Hidden {
+    rigid_animation: RigidAnimation, Shown {
         /// Translation over time, in metres.
         translation: Curve<Vec3> = Curve::default(), "m", ANY;
         /// Rotation over time.

@@ -1,6 +1,6 @@
 //! Keyframed curves.
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec4};
 
 use crate::value::{FieldType, Value, ValueType, choice, mismatch};
 
@@ -11,6 +11,8 @@ choice! {
         Step = "step",
         /// Goes evenly from key to key; rotations turn at an even speed.
         Linear = "linear",
+        /// Follows a cubic through both keys with the tangents given there.
+        Cubic = "cubic",
     }
 }
 
@@ -18,11 +20,28 @@ choice! {
 pub trait Interpolate: FieldType + PartialEq + std::fmt::Debug {
     /// The value at `t` from 0 to 1 on the way to `other`.
     fn interpolate(&self, other: &Self, t: f32) -> Self;
+    /// The sum of values, each times its weight: no rotation any more, for a quaternion, until
+    /// [`Interpolate::settled`] makes it one.
+    fn weighted_sum(terms: &[(f32, &Self)]) -> Self;
+    /// The nearest value that means something.
+    #[must_use]
+    fn settled(self) -> Self {
+        self
+    }
+    /// The same value in the form that lies nearer to another one: a quaternion and its negative
+    /// are one rotation.
+    #[must_use]
+    fn near(&self, _other: &Self) -> Self {
+        self.clone()
+    }
 }
 
 impl Interpolate for f32 {
     fn interpolate(&self, other: &Self, t: f32) -> Self {
         self + (other - self) * t
+    }
+    fn weighted_sum(terms: &[(f32, &Self)]) -> Self {
+        terms.iter().map(|(weight, value)| weight * **value).sum()
     }
 }
 
@@ -30,11 +49,33 @@ impl Interpolate for Vec3 {
     fn interpolate(&self, other: &Self, t: f32) -> Self {
         self.lerp(*other, t)
     }
+    fn weighted_sum(terms: &[(f32, &Self)]) -> Self {
+        terms.iter().map(|(weight, value)| **value * *weight).sum()
+    }
 }
 
 impl Interpolate for Quat {
     fn interpolate(&self, other: &Self, t: f32) -> Self {
         self.slerp(*other, t)
+    }
+    fn weighted_sum(terms: &[(f32, &Self)]) -> Self {
+        let terms = terms.iter();
+        Self::from_vec4(terms.map(|(weight, q)| Vec4::from(**q) * *weight).sum())
+    }
+    fn settled(self) -> Self {
+        let length = self.length();
+        if length > 1e-12 {
+            self / length
+        } else {
+            Self::IDENTITY
+        }
+    }
+    fn near(&self, other: &Self) -> Self {
+        if self.dot(*other) < 0.0 {
+            -*self
+        } else {
+            *self
+        }
     }
 }
 
@@ -43,6 +84,10 @@ impl Interpolate for Quat {
 pub struct Curve<T> {
     times: Vec<f32>,
     values: Vec<T>,
+    /// Change of the value for each second, just before and just after each key. Empty unless
+    /// the curve is cubic.
+    in_tangents: Vec<T>,
+    out_tangents: Vec<T>,
     interpolation: Interpolation,
 }
 
@@ -51,19 +96,75 @@ impl<T> Default for Curve<T> {
         Self {
             times: Vec::new(),
             values: Vec::new(),
+            in_tangents: Vec::new(),
+            out_tangents: Vec::new(),
             interpolation: Interpolation::Linear,
         }
     }
 }
 
 impl<T: Interpolate> Curve<T> {
-    /// A curve through these values at these times in seconds.
+    /// A curve through these values at these times in seconds, with steps or evenly.
     ///
     /// # Errors
-    /// The lists differ in length, or the times are not ascending numbers.
+    /// The lists differ in length, the times are not ascending numbers, or the curve is to be
+    /// cubic, which needs tangents: [`Curve::cubic`] or [`Curve::smooth`].
     pub fn new(
         times: Vec<f32>,
         values: Vec<T>,
+        interpolation: Interpolation,
+    ) -> Result<Self, String> {
+        let tangents = [Vec::new(), Vec::new()];
+        Self::checked(times, values, tangents, interpolation)
+    }
+
+    /// A cubic Hermite curve: through these values, with these changes for each second just
+    /// before (`in`) and just after (`out`) each key.
+    ///
+    /// # Errors
+    /// The lists differ in length, or the times are not ascending numbers.
+    pub fn cubic(
+        times: Vec<f32>,
+        values: Vec<T>,
+        in_tangents: Vec<T>,
+        out_tangents: Vec<T>,
+    ) -> Result<Self, String> {
+        let tangents = [in_tangents, out_tangents];
+        Self::checked(times, values, tangents, Interpolation::Cubic)
+    }
+
+    /// A smooth curve through these values: cubic, where the tangent at each key is the slope
+    /// between its neighbours, and zero at both ends (Catmull and Rom 1974, with uneven times).
+    ///
+    /// # Errors
+    /// As [`Curve::new`].
+    pub fn smooth(times: Vec<f32>, mut values: Vec<T>) -> Result<Self, String> {
+        for key in 1..values.len() {
+            values[key] = values[key].near(&values[key - 1]);
+        }
+        // Checks the times before they are divided by.
+        let curve = Self::new(times, values, Interpolation::Linear)?;
+        let Self { times, values, .. } = curve;
+        let last = values.len().saturating_sub(1);
+        let tangents: Vec<T> = (0..values.len())
+            .map(|key| {
+                let (before, after) = (key.saturating_sub(1), (key + 1).min(last));
+                let inside = key > 0 && key < last;
+                let weight = if inside {
+                    1.0 / (times[after] - times[before])
+                } else {
+                    0.0
+                };
+                T::weighted_sum(&[(weight, &values[after]), (-weight, &values[before])])
+            })
+            .collect();
+        Self::cubic(times, values, tangents.clone(), tangents)
+    }
+
+    fn checked(
+        times: Vec<f32>,
+        values: Vec<T>,
+        [in_tangents, out_tangents]: [Vec<T>; 2],
         interpolation: Interpolation,
     ) -> Result<Self, String> {
         if times.len() != values.len() {
@@ -84,9 +185,26 @@ impl<T: Interpolate> Curve<T> {
                 times[key]
             ));
         }
+        let wanted = if interpolation == Interpolation::Cubic {
+            times.len()
+        } else {
+            0
+        };
+        for (name, tangents) in [("in", &in_tangents), ("out", &out_tangents)] {
+            if tangents.len() != wanted {
+                return Err(format!(
+                    "a {} curve of {} times needs {wanted} {name} tangents and has {}",
+                    interpolation.name(),
+                    times.len(),
+                    tangents.len()
+                ));
+            }
+        }
         Ok(Self {
             times,
             values,
+            in_tangents,
+            out_tangents,
             interpolation,
         })
     }
@@ -106,6 +224,11 @@ impl<T: Interpolate> Curve<T> {
         &self.values
     }
 
+    /// How the curve runs between its keys.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
     /// The value at a time. Before the first key and after the last one the curve
     /// is constant. `None` for a curve without keys.
     pub fn sample(&self, time: f32) -> Option<T> {
@@ -114,45 +237,82 @@ impl<T: Interpolate> Curve<T> {
             return self.values.first().cloned();
         }
         let before = after - 1;
-        let (Some(next), Interpolation::Linear) = (self.values.get(after), self.interpolation)
-        else {
-            return self.values.get(before).cloned();
+        let value = &self.values[before];
+        let Some(next) = self.values.get(after) else {
+            return Some(value.clone());
         };
-        let t = (time - self.times[before]) / (self.times[after] - self.times[before]);
-        Some(self.values[before].interpolate(next, t))
+        let length = self.times[after] - self.times[before];
+        let t = (time - self.times[before]) / length;
+        Some(match self.interpolation {
+            Interpolation::Step => value.clone(),
+            Interpolation::Linear => value.interpolate(next, t),
+            Interpolation::Cubic => {
+                let [a, b, c, d] = hermite(t);
+                T::weighted_sum(&[
+                    (a, value),
+                    (b * length, &self.out_tangents[before]),
+                    (c, next),
+                    (d * length, &self.in_tangents[after]),
+                ])
+                .settled()
+            }
+        })
     }
+}
+
+/// The cubic Hermite basis: weights of the first value, the slope there, the second value and the
+/// slope there, at `t` from 0 to 1 (glTF 2.0 specification, appendix C.5).
+fn hermite(t: f32) -> [f32; 4] {
+    let (t2, t3) = (t * t, t * t * t);
+    [
+        2.0 * t3 - 3.0 * t2 + 1.0,
+        t3 - 2.0 * t2 + t,
+        3.0 * t2 - 2.0 * t3,
+        t3 - t2,
+    ]
 }
 
 impl<T: Interpolate> FieldType for Curve<T> {
     const TYPE: ValueType = ValueType::Map;
     fn to_value(&self) -> Value {
-        Value::Map(vec![
+        let mut entries = vec![
             ("interpolation".to_owned(), self.interpolation.to_value()),
             ("times".to_owned(), self.times.to_value()),
             ("values".to_owned(), self.values.to_value()),
-        ])
+        ];
+        if self.interpolation == Interpolation::Cubic {
+            entries.push(("in_tangents".to_owned(), self.in_tangents.to_value()));
+            entries.push(("out_tangents".to_owned(), self.out_tangents.to_value()));
+        }
+        Value::Map(entries)
     }
     fn from_value(value: &Value) -> Result<Self, String> {
         let Value::Map(entries) = value else {
             return Err(mismatch("a curve", value));
         };
-        let mut curve = (Interpolation::Linear, Vec::new(), Vec::new());
+        let mut curve = Self::default();
         for (name, value) in entries {
             match name.as_str() {
-                "interpolation" => curve.0 = FieldType::from_value(value)?,
-                "times" => curve.1 = FieldType::from_value(value)?,
-                "values" => curve.2 = FieldType::from_value(value)?,
+                "interpolation" => curve.interpolation = FieldType::from_value(value)?,
+                "times" => curve.times = FieldType::from_value(value)?,
+                "values" => curve.values = FieldType::from_value(value)?,
+                "in_tangents" => curve.in_tangents = FieldType::from_value(value)?,
+                "out_tangents" => curve.out_tangents = FieldType::from_value(value)?,
                 other => {
                     return Err(format!(
-                        "a curve has interpolation, times and values, but no `{other}`"
+                        "a curve has interpolation, times, values, in_tangents and out_tangents, \
+                         but no `{other}`"
                     ));
                 }
             }
         }
-        Self::new(curve.1, curve.2, curve.0)
+        let tangents = [curve.in_tangents, curve.out_tangents];
+        Self::checked(curve.times, curve.values, tangents, curve.interpolation)
     }
     fn heap_bytes(&self) -> usize {
-        self.times.heap_bytes() + self.values.heap_bytes()
+        let columns = [&self.values, &self.in_tangents, &self.out_tangents];
+        let values: usize = columns.into_iter().map(FieldType::heap_bytes).sum();
+        self.times.heap_bytes() + values
     }
 }
 
@@ -187,7 +347,55 @@ mod tests {
     }
 
     #[test]
+    fn a_cubic_curve_is_the_cubic() {
+        // p(t) = t³ − 2t + 1, with its own slopes, is given back exactly.
+        let p = |t: f32| t * t * t - 2.0 * t + 1.0;
+        let slope = |t: f32| 3.0 * t * t - 2.0;
+        let times = vec![0.0, 0.5, 2.0];
+        let at = |f: &dyn Fn(f32) -> f32| times.iter().map(|&t| f(t)).collect::<Vec<_>>();
+        let curve = Curve::cubic(times.clone(), at(&p), at(&slope), at(&slope)).unwrap();
+        for i in 0..=40 {
+            let t = i as f32 * 0.05;
+            assert!((curve.sample(t).unwrap() - p(t)).abs() < 1e-5, "at {t}");
+        }
+        assert_eq!(Curve::from_value(&curve.to_value()).unwrap(), curve);
+    }
+
+    #[test]
+    fn cubic_rotations_stay_rotations() {
+        let turns = [0.0, 1.0, 2.5, -1.0].map(Quat::from_rotation_y);
+        // The negative is the same rotation, and must not send the curve the long way round.
+        let values = vec![turns[0], -turns[1], turns[2], -turns[3]];
+        let curve = Curve::smooth(vec![0.0, 1.0, 2.0, 4.0], values).unwrap();
+        for i in 0..=40 {
+            let found = curve.sample(i as f32 * 0.1).unwrap();
+            assert!((found.length() - 1.0).abs() < 1e-5);
+            assert!(found.x.abs() < 1e-6 && found.z.abs() < 1e-6);
+        }
+        assert!(curve.sample(1.0).unwrap().angle_between(turns[1]) < 1e-3);
+        let halfway = curve.sample(0.5).unwrap();
+        assert!(halfway.angle_between(Quat::from_rotation_y(0.4)) < 0.15);
+    }
+
+    #[test]
+    fn a_smooth_curve_has_no_kinks() {
+        let points = [0.0, 3.0, 1.0, 1.0, 4.0].map(|y| Vec3::new(0.0, y, 1.0));
+        let times = vec![0.0, 0.5, 2.0, 2.5, 4.0];
+        let curve = Curve::smooth(times.clone(), points.to_vec()).unwrap();
+        let slope = |t: f32| (curve.sample(t + 1e-2).unwrap() - curve.sample(t).unwrap()) / 1e-2;
+        for &key in &times[1..4] {
+            let (before, after) = (slope(key - 1e-2), slope(key));
+            assert!((before - after).length() < 0.5, "{before} {after} at {key}");
+        }
+        assert!(slope(0.0).length() < 0.5);
+    }
+
+    #[test]
     fn bad_curves_are_refused() {
+        let error = Curve::cubic(vec![0.0], vec![0.0], vec![], vec![0.0]).unwrap_err();
+        assert!(error.contains("needs 1 in tangents and has 0"), "{error}");
+        let error = Curve::new(vec![0.0], vec![0.0], Interpolation::Cubic).unwrap_err();
+        assert!(error.contains("tangents"), "{error}");
         let new = |times: &[f32]| {
             Curve::new(times.to_vec(), vec![0.0; 2], Interpolation::Linear).unwrap_err()
         };

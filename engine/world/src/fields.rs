@@ -59,7 +59,7 @@ impl World {
             field,
             value: None,
         };
-        self.stores.visit_one(kind, &mut get);
+        self.stores.get().visit_one(kind, &mut get);
         get.value
     }
 
@@ -118,7 +118,7 @@ impl World {
             now: self.clock.now(),
             outcome: None,
         };
-        self.stores.visit_one_mut(kind, &mut set);
+        self.stores.get_mut().visit_one_mut(kind, &mut set);
         match set.outcome {
             None => Err(WorldError::Missing {
                 entity,
@@ -256,7 +256,15 @@ mod tests {
             .collect();
         assert_eq!(
             shown,
-            ["Transform", "MeshRenderer", "Light", "Camera", "Name"]
+            [
+                "Transform",
+                "MeshRenderer",
+                "Light",
+                "Camera",
+                "Name",
+                "Velocity",
+                "RigidAnimation"
+            ]
         );
     }
 

@@ -31,6 +31,7 @@ impl World {
     /// entities stay as they were, with new handles; a handle to an entity that
     /// the other world does not contain becomes [`Entity::NONE`].
     pub fn merge(&mut self, other: &World) -> EntityMap {
+        self.settle();
         let mut map = EntityMap::default();
         self.entities.reserve(other.len());
         for old in other.entities.iter() {
@@ -40,7 +41,8 @@ impl World {
             map.pairs.resize(slot, (Entity::NONE, Entity::NONE));
             map.pairs.push((old, new));
         }
-        self.stores.append(&other.stores, &map, self.clock.now());
+        let now = self.clock.now();
+        self.stores.get_mut().append(other.stores.get(), &map, now);
         self.tags.append(&other.tags, &map);
         self.groups.append(&other.groups, &map);
         map
@@ -66,7 +68,9 @@ impl World {
         *self = snapshot.0.clone();
         self.clock = clock;
         self.systems = Default::default();
-        self.stores.visit_mut(&mut MarkAll(self.clock.now()));
+        self.stores
+            .get_mut()
+            .visit_mut(&mut MarkAll(self.clock.now()));
     }
 }
 

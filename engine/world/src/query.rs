@@ -195,15 +195,15 @@ impl World {
     /// and in the order of `A`. If `B`'s entities all have an `A` and `A` has no
     /// others, or has them at its end, a join of both is a single run then.
     pub fn align<A: Stored, B: Stored>(&mut self) {
-        let leader: &Columns<A> = A::columns(&self.stores);
-        let follower: &Columns<B> = B::columns(&self.stores);
+        let leader: &Columns<A> = A::columns(self.stores.get());
+        let follower: &Columns<B> = B::columns(self.stores.get());
         let rank = |entity| leader.row_of(entity).unwrap_or(usize::MAX);
         let mut order: Vec<u32> = (0..follower.len() as u32).collect();
         order.sort_by_key(|&row| rank(follower.entities()[row as usize]));
         if !order.is_sorted() {
             self.columns_mut::<B>().reorder(&order);
             let now = self.clock.now();
-            B::reorder_follower(&mut self.stores, &order, now);
+            B::reorder_follower(self.stores.get_mut(), &order, now);
         }
     }
 }

@@ -8,8 +8,9 @@
 //! they were added. The result is the same as that of running all of them one
 //! after the other, whatever the number of threads.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use rayon::prelude::*;
 
 use crate::access::{ReadSet, WriteSet};
@@ -38,8 +39,27 @@ pub struct SystemTime {
     pub name: &'static str,
     /// The stage in which it runs; systems of one stage run at the same time.
     pub stage: usize,
-    /// Wall-clock time on its thread.
-    pub duration: Duration,
+    /// CPU time of the thread that ran it. Work that it handed to other threads is not in it.
+    pub thread: Duration,
+}
+
+impl SystemTime {
+    /// The thread's time in milliseconds.
+    pub fn thread_ms(&self) -> f64 {
+        self.thread.as_secs_f64() * 1e3
+    }
+
+    /// Runs a function as a system of one's own, and says how long it took.
+    pub fn of<T>(name: &'static str, function: impl FnOnce() -> T) -> (Self, T) {
+        let start = ThreadTime::now();
+        let result = function();
+        let time = Self {
+            name,
+            stage: 0,
+            thread: start.elapsed(),
+        };
+        (time, result)
+    }
 }
 
 /// A system whose columns have been taken out of the world, or that has the whole
@@ -92,7 +112,7 @@ struct Entry {
     stage: usize,
     since: Tick,
     commands: Commands,
-    duration: Duration,
+    thread: Duration,
     body: Body,
 }
 
@@ -110,7 +130,7 @@ struct Entry {
 /// });
 /// schedule.run(&mut world, 1.0 / 60.0);
 /// for system in schedule.times() {
-///     println!("{}: {:?}", system.name, system.duration);
+///     println!("{}: {:?}", system.name, system.thread);
 /// }
 /// ```
 #[derive(Default)]
@@ -177,14 +197,19 @@ impl Schedule {
             stage,
             since: Tick::START,
             commands: Commands::default(),
-            duration: Duration::ZERO,
+            thread: Duration::ZERO,
             body,
         });
     }
 
     /// Runs every system once. `step` is the time that passes, in seconds.
     pub fn run(&mut self, world: &mut World, step: f32) {
-        self.time += f64::from(step);
+        self.run_at(world, self.time + f64::from(step), step);
+    }
+
+    /// Like [`Schedule::run`], for a step that ends at a time in seconds.
+    pub fn run_at(&mut self, world: &mut World, time: f64, step: f32) {
+        self.time = time;
         for stage in 0..self.stages {
             self.run_stage(world, stage, step);
         }
@@ -198,18 +223,18 @@ impl Schedule {
             match &mut entry.body {
                 Body::Shared(system) => system.take(world),
                 Body::Exclusive(function) => {
-                    let start = Instant::now();
+                    let start = ThreadTime::now();
                     function(world);
-                    entry.duration = start.elapsed();
+                    entry.thread = start.elapsed();
                 }
             }
         }
         let shared: &World = world;
-        self.systems.par_iter_mut().for_each(|entry| {
+        let run = |entry: &mut Entry| {
             if entry.stage == stage
                 && let Body::Shared(system) = &mut entry.body
             {
-                let start = Instant::now();
+                let start = ThreadTime::now();
                 let context = Context {
                     time,
                     step,
@@ -217,10 +242,16 @@ impl Schedule {
                     commands: &mut entry.commands,
                 };
                 system.run(shared, context);
-                entry.duration = start.elapsed();
+                entry.thread = start.elapsed();
                 entry.since = closed;
             }
-        });
+        };
+        // One system alone has nothing to gain from being handed to another thread.
+        if self.systems.iter().filter(|entry| in_stage(entry)).count() > 1 {
+            self.systems.par_iter_mut().for_each(run);
+        } else {
+            self.systems.iter_mut().for_each(run);
+        }
         for entry in self.systems.iter_mut().filter(|entry| in_stage(entry)) {
             if let Body::Shared(system) = &mut entry.body {
                 system.put(world);
@@ -236,7 +267,7 @@ impl Schedule {
         self.systems.iter().map(|entry| SystemTime {
             name: entry.name,
             stage: entry.stage,
-            duration: entry.duration,
+            thread: entry.thread,
         })
     }
 }

@@ -28,18 +28,34 @@ impl Tick {
     }
 }
 
-/// Rows that share one summary tick, so that a search skips what did not change.
+/// Rows that share one summary, so that a search skips what did not change.
 pub(crate) const BLOCK: usize = 256;
 
+/// How far back the rows of a block reach after its base was moved.
+const REACH: u32 = 1 << 15;
+
+/// What the rows of one block have in common.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    /// The tick from which the rows of the block count.
+    base: u32,
+    /// The latest tick of any of its rows.
+    last: Tick,
+}
+
 /// The ticks of one set of columns.
+///
+/// A row holds 16 bits: how long after its block's base it was written. When a
+/// block outgrows them, its base moves to 2¹⁵ ticks before the present one, and
+/// rows that are older count as written there. Only an observer that has not
+/// looked for longer than that is told of more rows than have changed.
 #[derive(Clone, Debug)]
 pub(crate) struct ChangeTicks {
-    /// Numbers instead of ticks, so that room for more rows can be zeroed memory.
-    rows: Vec<u32>,
-    /// Number of rows; what follows in `rows` is room.
+    /// What follows the rows is room, and zero.
+    rows: Vec<u16>,
+    /// Number of rows.
     len: usize,
-    /// The latest tick of every run of `BLOCK` rows.
-    blocks: Vec<Tick>,
+    blocks: Vec<Block>,
     /// All rows changed at this tick: marks a whole column without a loop.
     all: Tick,
     /// The latest change of any row, or of the number of rows.
@@ -71,42 +87,33 @@ impl ChangeTicks {
     }
 
     pub fn push(&mut self, now: Tick) {
-        match self.rows.get_mut(self.len) {
-            Some(row) => *row = now.0,
-            None => self.rows.push(now.0),
-        }
-        let block = self.len / BLOCK;
-        self.len += 1;
-        if block == self.blocks.len() {
-            self.blocks.push(now);
-        } else {
-            self.blocks[block] = now;
-        }
-        self.last = now;
+        self.extend(1, now);
     }
 
-    /// Adds rows that are written now. Where the tick of all rows says so, the
-    /// rows' own ticks are left alone.
+    /// Adds rows that are written now.
     pub fn extend(&mut self, count: usize, now: Tick) {
-        if self.len == 0 {
-            self.all = now;
-        }
         let end = self.len + count;
         if end > self.rows.len() {
-            self.rows.resize(end, now.0);
+            self.rows.resize(end, 0);
         }
-        if self.all != now {
-            self.rows[self.len..end].fill(now.0);
+        // The rows of a block that has begun count from its base. In new blocks
+        // they count from now, and zero is what stands in the room.
+        let begun = end.min(self.len.next_multiple_of(BLOCK));
+        for row in self.len..begun {
+            mark(&mut self.rows, &mut self.blocks, row, now);
         }
-        let first = self.len / BLOCK;
+        let fresh = Block {
+            base: now.0,
+            last: now,
+        };
+        self.blocks.resize(end.div_ceil(BLOCK), fresh);
         self.len = end;
-        self.blocks.resize(end.div_ceil(BLOCK), now);
-        self.blocks[first..].fill(now);
         self.last = now;
     }
 
     /// Drops the rows from `len` on.
     pub fn truncate(&mut self, len: usize, now: Tick) {
+        self.rows[len..self.len].fill(0);
         self.len = len;
         self.blocks.truncate(len.div_ceil(BLOCK));
         self.last = now;
@@ -120,9 +127,9 @@ impl ChangeTicks {
         }
     }
 
+    #[inline]
     pub fn mark(&mut self, row: usize, now: Tick) {
-        self.rows[row] = now.0;
-        self.blocks[row / BLOCK] = now;
+        mark(&mut self.rows, &mut self.blocks, row, now);
         self.last = now;
     }
 
@@ -135,8 +142,11 @@ impl ChangeTicks {
         self.last
     }
 
+    #[inline]
     pub fn is_after(&self, row: usize, since: Tick) -> bool {
-        Tick(self.rows[row]).is_after(since) || self.all.is_after(since)
+        let base = self.blocks[row / BLOCK].base;
+        Tick(base.wrapping_add(u32::from(self.rows[row]))).is_after(since)
+            || self.all.is_after(since)
     }
 
     /// Rows of a range that were written after `since`, in ascending order.
@@ -148,11 +158,13 @@ impl ChangeTicks {
             0..0
         };
         blocks
-            .filter(move |&block| everything || self.blocks[block].is_after(since))
+            .filter(move |&block| everything || self.blocks[block].last.is_after(since))
             .flat_map(move |block| {
                 let first = range.start.max(block * BLOCK);
                 let end = range.end.min((block + 1) * BLOCK);
-                (first..end).filter(move |&row| everything || Tick(self.rows[row]).is_after(since))
+                let base = self.blocks[block].base;
+                let tick = move |row: usize| base.wrapping_add(u32::from(self.rows[row]));
+                (first..end).filter(move |&row| everything || Tick(tick(row)).is_after(since))
             })
     }
 
@@ -175,21 +187,49 @@ impl ChangeTicks {
     }
 
     pub fn capacity_bytes(&self) -> usize {
-        (self.rows.capacity() + self.blocks.capacity()) * size_of::<Tick>()
+        self.rows.capacity() * size_of::<u16>() + self.blocks.capacity() * size_of::<Block>()
     }
+}
+
+#[inline]
+fn mark(rows: &mut [u16], blocks: &mut [Block], row: usize, now: Tick) {
+    let block = &mut blocks[row / BLOCK];
+    block.last = now;
+    let age = now.0.wrapping_sub(block.base);
+    rows[row] = match u16::try_from(age) {
+        Ok(age) => age,
+        Err(_) => {
+            let first = row / BLOCK * BLOCK;
+            let end = rows.len().min(first + BLOCK);
+            move_base(block, &mut rows[first..end], now)
+        }
+    };
+}
+
+/// Moves the base of a block towards the present, and returns the present's
+/// distance from it.
+#[cold]
+fn move_base(block: &mut Block, rows: &mut [u16], now: Tick) -> u16 {
+    let base = now.0.wrapping_sub(REACH);
+    let moved = base.wrapping_sub(block.base);
+    let moved = u16::try_from(moved).unwrap_or(u16::MAX);
+    for row in rows {
+        *row = row.saturating_sub(moved);
+    }
+    block.base = base;
+    REACH as u16
 }
 
 /// The ticks of a run of rows that starts and ends with whole blocks.
 pub(crate) struct Marks<'a> {
-    rows: &'a mut [u32],
-    blocks: &'a mut [Tick],
+    rows: &'a mut [u16],
+    blocks: &'a mut [Block],
 }
 
 impl Marks<'_> {
     #[inline]
     pub fn mark(&mut self, row: usize, now: Tick) {
-        self.rows[row] = now.0;
-        self.blocks[row / BLOCK] = now;
+        mark(self.rows, self.blocks, row, now);
     }
 
     /// Splits at a row that is a multiple of `BLOCK`.
@@ -238,6 +278,54 @@ mod tests {
         ticks.swap_remove(598, Tick(6));
         assert_eq!(ticks.changed_in(0..598, Tick(5)).count(), 0);
         assert_eq!(ticks.last(), Tick(6));
+    }
+
+    /// Against full ticks, for observers that looked within the reach: exactly the same rows. For
+    /// older ones: at least those.
+    #[test]
+    fn sixteen_bits_are_enough() {
+        let start = u32::MAX - 100_000;
+        let mut ticks = ChangeTicks::default();
+        let mut full = vec![start; 700];
+        ticks.extend(700, Tick(start));
+        ticks.mark_all(Tick(start));
+        let mut now = start;
+        let mut random = 1_u64;
+        for step in 0..4000 {
+            random = random
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            now = now.wrapping_add((random >> 60) as u32 * 25);
+            let row = (random >> 33) as usize % full.len();
+            match step % 40 {
+                0 => {
+                    ticks.swap_remove(row, Tick(now));
+                    full.swap_remove(row);
+                    if row < full.len() {
+                        full[row] = now;
+                    }
+                }
+                1 => {
+                    ticks.extend(3, Tick(now));
+                    full.extend([now; 3]);
+                }
+                _ => {
+                    ticks.mark(row, Tick(now));
+                    full[row] = now;
+                }
+            }
+            for back in [0, 1, 100, REACH - 1, REACH * 3] {
+                let since = Tick(now.wrapping_sub(back));
+                let told: Vec<_> = ticks.changed_in(0..full.len(), since).collect();
+                let changed = |row: &usize| Tick(full[*row]).is_after(since);
+                let mut expected = (0..full.len()).filter(changed);
+                if back < REACH {
+                    assert!(told.iter().copied().eq(expected), "{back} at {step}");
+                } else {
+                    assert!(expected.all(|row| told.binary_search(&row).is_ok()));
+                }
+            }
+        }
     }
 
     #[test]

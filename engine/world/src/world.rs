@@ -4,11 +4,12 @@ use crate::access::WriteSet;
 use crate::bundle::FAMILY;
 use crate::clock::Clock;
 use crate::columns::Columns;
-use crate::components::{ComponentKind, MeshRenderer, Name, Stores};
+use crate::components::{ComponentKind, MeshRenderer, Name};
 use crate::entity::{Entities, Entity};
 use crate::error::WorldError;
 use crate::reflect::Role;
 use crate::sets::EntitySets;
+use crate::settled::Settled;
 use crate::stores::{Stored, Visitor, VisitorMut};
 use crate::systems::SystemState;
 use crate::ticks::Tick;
@@ -36,7 +37,7 @@ use crate::ticks::Tick;
 #[derive(Clone, Debug, Default)]
 pub struct World {
     pub(crate) entities: Entities,
-    pub(crate) stores: Stores,
+    pub(crate) stores: Settled,
     pub(crate) clock: Clock,
     pub(crate) systems: SystemState,
     pub(crate) tags: EntitySets,
@@ -51,11 +52,24 @@ impl World {
 
     /// Creates an entity without components.
     pub fn spawn(&mut self) -> Entity {
+        self.settle();
         self.entities.spawn()
     }
 
+    /// Takes the rows of removed entities out, so that their slots may be given
+    /// out again.
+    #[inline]
+    pub(crate) fn settle(&mut self) {
+        if self.stores.has_dead() {
+            self.stores.get_mut();
+        }
+    }
+
     /// Removes an entity, its components and its descendants. False for a stale
-    /// handle. For many entities [`World::despawn_batch`] is several times faster.
+    /// handle.
+    ///
+    /// The handle is stale at once. The rows are taken out when anybody next looks
+    /// at a column, those of all removals until then together.
     pub fn despawn(&mut self, entity: Entity) -> bool {
         if !self.contains(entity) {
             return false;
@@ -113,7 +127,7 @@ impl World {
         *bits |= C::BITS;
         let now = self.clock.now();
         if self.columns_mut::<C>().insert(entity, row) {
-            C::push_follower(&mut self.stores, entity, now);
+            C::push_follower(self.stores.get_mut(), entity, now);
         }
         Ok(())
     }
@@ -128,7 +142,7 @@ impl World {
     /// Like [`World::remove`], for computed components too.
     pub(crate) fn remove_any<C: Stored>(&mut self, entity: Entity) -> Option<C> {
         let row = self.columns_mut::<C>().remove(entity)?;
-        C::remove_follower(&mut self.stores, entity, self.clock.now());
+        C::remove_follower(self.stores.get_mut(), entity, self.clock.now());
         if let Some(bits) = self.entities.components_mut(entity) {
             *bits &= !C::BITS;
         }
@@ -174,14 +188,14 @@ impl World {
     /// All rows of one component.
     #[inline]
     pub fn columns<C: Stored>(&self) -> &Columns<C> {
-        C::columns(&self.stores)
+        C::columns(self.stores.get())
     }
 
     /// All rows of one component, to write.
     #[inline]
     pub fn columns_mut<C: Stored>(&mut self) -> &mut Columns<C> {
         let now = self.clock.now();
-        let columns = C::columns_mut(&mut self.stores);
+        let columns = C::columns_mut(self.stores.get_mut());
         columns.set_now(now);
         columns
     }
@@ -220,14 +234,14 @@ impl World {
     /// others are read. They carry the present tick.
     pub(crate) fn take_columns<C: Stored>(&mut self) -> Columns<C> {
         let now = self.clock.now();
-        let mut columns = std::mem::take(C::columns_mut(&mut self.stores));
+        let mut columns = std::mem::take(C::columns_mut(self.stores.get_mut()));
         columns.set_now(now);
         columns
     }
 
     /// Puts columns back that [`World::take_columns`] took out.
     pub(crate) fn put_columns<C: Stored>(&mut self, columns: Columns<C>) {
-        *C::columns_mut(&mut self.stores) = columns;
+        *C::columns_mut(self.stores.get_mut()) = columns;
     }
 
     /// The first entity, in the order of slots, of this name.
@@ -266,7 +280,8 @@ impl World {
             }
         }
         self.entities.shrink_to_fit();
-        self.stores.visit_mut(&mut Shrink);
+        self.stores.shrink_to_fit();
+        self.stores.get_mut().visit_mut(&mut Shrink);
     }
 
     /// Bytes that the columns occupy, spare room and bookkeeping included.
@@ -277,8 +292,8 @@ impl World {
                 self.0 += columns.capacity_bytes();
             }
         }
-        let mut sum = Sum(self.entities.capacity_bytes());
-        self.stores.visit(&mut sum);
+        let mut sum = Sum(self.entities.capacity_bytes() + self.stores.capacity_bytes());
+        self.stores.get().visit(&mut sum);
         sum.0
     }
 }

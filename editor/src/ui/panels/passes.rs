@@ -1,4 +1,4 @@
-//! The passes of the pipeline on screen and what each costs.
+//! The systems of the world and the passes of the pipeline on screen, and what each costs.
 
 use std::time::{Duration, Instant};
 
@@ -28,6 +28,8 @@ struct Row {
 #[derive(Default)]
 pub struct PassesPanel {
     rows: Vec<Row>,
+    /// Name and median of each system.
+    systems: Vec<(&'static str, Option<f64>)>,
     target_bytes: u64,
     pipeline: String,
     refreshed: Option<Instant>,
@@ -43,6 +45,10 @@ impl PassesPanel {
         self.refreshed = Some(now);
         self.pipeline = shown;
         self.rows.clear();
+        self.systems.clear();
+        let systems = editor.timings.systems.iter();
+        self.systems
+            .extend(systems.map(|system| (system.name, system.thread_ms.median())));
         let statistics = editor.statistics().clone();
         self.target_bytes = statistics.target_bytes;
         let Some(pipeline) = editor.pipelines.shown_pipeline() else {
@@ -80,6 +86,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
 
     totals(editor, ui, palette);
     ui.add_space(4.0);
+    systems(panel, ui);
     let slowest = panel.rows.iter().filter_map(|row| row.gpu_ms);
     let slowest = slowest.fold(0.0_f64, f64::max);
     let height = 20.0;
@@ -180,6 +187,30 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                 });
             });
     });
+}
+
+/// What the world cost before the first pass.
+fn systems(panel: &PassesPanel, ui: &mut Ui) {
+    if panel.systems.is_empty() {
+        return;
+    }
+    let about = "CPU time of the thread that ran each, median of the last steps. Work that a \
+                 system handed to other threads is not in it.";
+    let title = RichText::new("Systems, CPU thread ms").small().weak();
+    ui.label(title).on_hover_text(about);
+    let table = egui::Grid::new("systems").num_columns(2);
+    table.striped(true).show(ui, |ui| {
+        for (name, time) in &panel.systems {
+            ui.label(*name);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                // Finer than passes: a system of a small scene takes microseconds.
+                let time = time.map_or_else(|| MISSING.to_owned(), |ms| format!("{ms:.3}"));
+                ui.label(RichText::new(time).monospace());
+            });
+            ui.end_row();
+        }
+    });
+    ui.add_space(4.0);
 }
 
 /// The whole frame, and how its GPU time is shared out between the passes.

@@ -27,7 +27,6 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
-use lightbench::world::systems;
 
 use self::camera::CameraRig;
 use self::clock::Clock;
@@ -291,13 +290,12 @@ impl Workbench {
 
     fn new_scene(&mut self, again: bool) {
         self.renderer.reset_scene();
-        self.timings.reset();
+        self.timings = Timings::default();
         let Some(scene) = self.scenes.scene_mut() else {
             return;
         };
-        systems::update_world_matrices(&mut scene.world);
-        systems::update_bounds(&mut scene.world, scene.assets.mesh_bounds());
-        let animated = scene.has_update();
+        self.timings.stepped(scene.system_times());
+        let animated = scene.moves();
         if again {
             self.clock.refresh();
         } else {
@@ -312,13 +310,14 @@ impl Workbench {
         self.canvas.invalidate();
     }
 
-    /// Lets the scene's script move things; a mistake stops time and shows.
+    /// Lets the scene's script and systems move things; a mistake stops time and shows.
     fn update_scene(&mut self, step: f64) {
         let Some(scene) = self.scenes.scene_mut() else {
             self.clock.refresh();
             return;
         };
         let result = scene.update(self.clock.time(), step);
+        self.timings.stepped(scene.system_times());
         for line in scene.take_log() {
             self.log.add(Level::Script, Some(line.place), line.text);
         }
@@ -334,7 +333,7 @@ impl Workbench {
         let Some(scene) = self.scenes.scene_mut() else {
             return;
         };
-        systems::update_world_matrices(&mut scene.world);
+        scene.refresh();
         let home = View::from_world(&scene.world).unwrap_or_default();
         self.camera.follow(home);
     }

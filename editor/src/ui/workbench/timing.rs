@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use lightbench::render::FrameStatistics;
 use lightbench::render::queries::Measured;
+use lightbench::world::SystemTime;
 
 /// Frames kept for medians and graphs.
 pub const WINDOW: usize = 120;
@@ -53,9 +54,20 @@ pub struct PassTimes {
     pub fragments: Option<u64>,
 }
 
+/// The history of one system of the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemTimes {
+    /// Its name.
+    pub name: &'static str,
+    /// Milliseconds of the thread that ran it.
+    pub thread_ms: Series,
+}
+
 /// The history of the pipeline on screen.
 #[derive(Debug, Default)]
 pub struct Timings {
+    /// The script and the systems, in the order in which they run, then the extraction.
+    pub systems: Vec<SystemTimes>,
     /// In the order of the passes.
     pub passes: Vec<PassTimes>,
     /// The whole frame on the GPU, milliseconds.
@@ -67,9 +79,35 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// Forgets everything: another pipeline, another size or another scene comes.
+    /// Forgets everything: another pipeline, another size or another scene comes. What the last
+    /// step took stays, because a scene at rest takes no other.
     pub fn reset(&mut self) {
+        let last = std::mem::take(&mut self.systems);
         *self = Self::default();
+        for system in last {
+            if let Some(ms) = system.thread_ms.values().last() {
+                self.add_system(system.name, ms);
+            }
+        }
+    }
+
+    /// Takes note of what the script and the systems took in a step of the scene.
+    pub fn stepped(&mut self, times: impl IntoIterator<Item = SystemTime>) {
+        for time in times {
+            self.add_system(time.name, time.thread_ms());
+        }
+    }
+
+    fn add_system(&mut self, name: &'static str, ms: f64) {
+        let at = self.systems.iter().position(|known| known.name == name);
+        let at = at.unwrap_or_else(|| {
+            self.systems.push(SystemTimes {
+                name,
+                thread_ms: Series::default(),
+            });
+            self.systems.len() - 1
+        });
+        self.systems[at].thread_ms.push(ms);
     }
 
     /// Takes note of a submitted frame.
@@ -79,6 +117,7 @@ impl Timings {
             self.passes
                 .resize_with(statistics.passes.len(), Default::default);
         }
+        self.stepped(statistics.systems.iter().cloned());
         self.cpu_ms
             .push(statistics.extract_ms + statistics.record_ms);
         for (times, pass) in self.passes.iter_mut().zip(&statistics.passes) {
@@ -138,6 +177,25 @@ mod tests {
         }
         assert_eq!(series.median(), Some(2.0));
         assert_eq!(series.values().len(), WINDOW);
+    }
+
+    #[test]
+    fn systems_keep_their_order_and_the_last_step_survives_a_reset() {
+        let time = |name, ms| SystemTime {
+            name,
+            stage: 0,
+            thread: std::time::Duration::from_micros(ms),
+        };
+        let mut timings = Timings::default();
+        for ms in [100, 300, 200] {
+            timings.stepped([time("script", ms), time("bounds", 2 * ms)]);
+        }
+        let names: Vec<_> = timings.systems.iter().map(|system| system.name).collect();
+        assert_eq!(names, ["script", "bounds"]);
+        assert_eq!(timings.systems[1].thread_ms.median(), Some(0.4));
+        timings.reset();
+        assert_eq!(timings.systems[0].thread_ms.median(), Some(0.2));
+        assert_eq!(timings.systems[0].thread_ms.values().len(), 1);
     }
 
     #[test]

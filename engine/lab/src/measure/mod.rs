@@ -111,6 +111,7 @@ pub fn measure(
             let time = f64::from(measured) * STEP;
             scene.update(time, STEP).map_err(MeasureError::Script)?;
         }
+        let stepped: Vec<_> = scene.system_times().collect();
         for turn in 0..pipelines.len() {
             let index = (measured as usize + turn) % pipelines.len();
             let frame = draw_and_wait(
@@ -120,7 +121,7 @@ pub fn measure(
                 options.size,
                 measured,
             )?;
-            series[index].add(&frame.statistics, frame.queries.as_ref());
+            series[index].add(&stepped, &frame.statistics, frame.queries.as_ref());
         }
         measured += 1;
     }

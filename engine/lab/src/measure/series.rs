@@ -3,8 +3,9 @@
 use lightbench_render::gpu::Gpu;
 use lightbench_render::queries::Measured;
 use lightbench_render::{FrameStatistics, Pipeline};
+use lightbench_world::SystemTime;
 
-use crate::report::{Parameter, PassResult, PipelineResult, TargetResult};
+use crate::report::{Parameter, PassResult, PipelineResult, SystemResult, TargetResult};
 
 /// What the adapter can't measure, in words for the report.
 #[derive(Clone, Debug)]
@@ -63,8 +64,17 @@ impl Series {
         }
     }
 
-    /// Adds a frame. `measured` is what its queries brought.
-    pub(super) fn add(&mut self, statistics: &FrameStatistics, measured: Option<&Measured>) {
+    /// Adds a frame. `stepped` is what the systems took to reach its moment, and `measured` what
+    /// its queries brought.
+    pub(super) fn add(
+        &mut self,
+        stepped: &[SystemTime],
+        statistics: &FrameStatistics,
+        measured: Option<&Measured>,
+    ) {
+        for time in stepped.iter().chain(&statistics.systems) {
+            self.add_system(time);
+        }
         let cpu = statistics.extract_ms + statistics.record_ms;
         self.result.frame_cpu_ms.push(cpu);
         let total = measured.and_then(|measured| measured.total_ms);
@@ -83,6 +93,19 @@ impl Series {
                 pass.fragments = measured.fragments.get(index).copied();
             }
         }
+    }
+
+    fn add_system(&mut self, time: &SystemTime) {
+        let systems = &mut self.result.systems;
+        let at = systems.iter().position(|known| known.name == time.name);
+        let at = at.unwrap_or_else(|| {
+            systems.push(SystemResult {
+                name: time.name.to_owned(),
+                ..SystemResult::default()
+            });
+            systems.len() - 1
+        });
+        systems[at].thread_ms.push(time.thread_ms());
     }
 
     /// The frames as a result, without its picture.

@@ -166,6 +166,26 @@ pub fn passes(c: &Comparison) -> String {
     table.text
 }
 
+/// One row a system of a pipeline's frames: CPU time of the thread that ran it.
+pub fn systems(c: &Comparison) -> String {
+    let mut table = Table::new(&[
+        "pipeline",
+        "system",
+        "thread_median_ms",
+        "thread_low_ms",
+        "thread_high_ms",
+        "thread_p95_ms",
+    ]);
+    for p in &c.pipelines {
+        for system in &p.systems {
+            let mut row = vec![p.name.clone(), system.name.clone()];
+            row.extend(times(Summary::of(&system.thread_ms)));
+            table.row(row);
+        }
+    }
+    table.text
+}
+
 /// One row a measured frame of a pipeline.
 pub fn frames(c: &Comparison) -> String {
     let mut table = Table::new(&["pipeline", "frame", "gpu_ms", "cpu_ms"]);
@@ -218,7 +238,13 @@ mod tests {
         let mut c = sample::comparison();
         c.adapter.name = "llvmpipe".into();
         c.pipelines[0].frame_gpu_ms = None;
-        for text in [pipelines(&c), passes(&c), frames(&c), targets(&c)] {
+        for text in [
+            pipelines(&c),
+            systems(&c),
+            passes(&c),
+            frames(&c),
+            targets(&c),
+        ] {
             let mut lines = text.split("\r\n");
             let columns = lines.next().unwrap().split(',').count();
             let rows: Vec<&str> = lines.filter(|l| !l.is_empty()).collect();

@@ -17,6 +17,6 @@ mod write;
 
 pub use model::{
     Adapter, Comparison, Input, Machine, Parameter, PassResult, PipelineResult, SCHEMA, Seed,
-    TargetResult,
+    SystemResult, TargetResult,
 };
 pub use write::{ReportFiles, read_json, to_json, write_report};

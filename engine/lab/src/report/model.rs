@@ -131,6 +131,10 @@ pub struct PipelineResult {
     pub frame_gpu_ms: Option<Vec<f64>>,
     /// Why GPU times are absent.
     pub gpu_why_not: Option<String>,
+    /// The script and the systems of the world in the order in which they run, then what makes a
+    /// frame of the world. Empty in reports of versions that did not measure them.
+    #[serde(default)]
+    pub systems: Vec<SystemResult>,
     /// The passes in the order in which they run.
     pub passes: Vec<PassResult>,
     /// The targets that it declares.
@@ -151,6 +155,16 @@ pub struct PipelineResult {
     /// FLIP of each pixel, painted with magma from 0 to 1; not part of the JSON.
     #[serde(skip)]
     pub heat_map: Option<LdrImage>,
+}
+
+/// What one system cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SystemResult {
+    /// Name of the system, unique in the frame.
+    pub name: String,
+    /// CPU time of the thread that ran it, in each measured frame, in milliseconds. Work that it
+    /// handed to other threads is not in it.
+    pub thread_ms: Vec<f64>,
 }
 
 /// What one pass cost. Counts are those of one frame.

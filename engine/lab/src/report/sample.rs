@@ -114,6 +114,13 @@ pub fn pipeline(name: &str, title: &str, gpu: f64, picture: LdrImage) -> Pipelin
         },
         frame_cpu_ms: series(gpu * 0.05, 0.05, 60),
         frame_gpu_ms: Some(series(gpu, gpu * 0.05, 60)),
+        systems: ["script", "world matrices", "extraction"]
+            .into_iter()
+            .map(|name| SystemResult {
+                name: name.into(),
+                thread_ms: series(0.2, 0.02, 60),
+            })
+            .collect(),
         passes,
         target_bytes_total: targets.iter().map(|t| t.bytes).sum(),
         targets,

@@ -16,7 +16,7 @@ pub struct ReportFiles {
     pub html: PathBuf,
     /// `report.json`: everything but the pixels, for programs.
     pub json: PathBuf,
-    /// `pipelines.csv`, `passes.csv`, `frames.csv` and `targets.csv`.
+    /// `pipelines.csv`, `systems.csv`, `passes.csv`, `frames.csv` and `targets.csv`.
     pub csv: Vec<PathBuf>,
     /// `pictures/*.png`: each pipeline's picture and heat map.
     pub pictures: Vec<PathBuf>,
@@ -35,6 +35,7 @@ pub fn write_report(comparison: &mut Comparison, folder: &Path) -> Result<Report
     write_atomically(&json, to_json(comparison)?.as_bytes())?;
     let tables = [
         ("pipelines.csv", csv::pipelines(comparison)),
+        ("systems.csv", csv::systems(comparison)),
         ("passes.csv", csv::passes(comparison)),
         ("frames.csv", csv::frames(comparison)),
         ("targets.csv", csv::targets(comparison)),
@@ -169,7 +170,7 @@ mod tests {
         assert_eq!(read, c);
         // A second report replaces the first and leaves no temporary files.
         write_report(&mut c, &place).unwrap();
-        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 7);
+        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 8);
     }
 
     #[test]

@@ -8,7 +8,9 @@ use lightbench_assets::{Assets, Mesh, MeshId, Progress};
 use lightbench_world::glam::Vec3;
 use lightbench_world::{Entity, Name, Stored, Transform, World};
 
+use super::models::Models;
 use super::parameters::SceneParameter;
+use super::recipes::Recipes;
 use crate::api::{Mistake, ScriptType};
 use crate::limits::{Limits, Watch};
 use crate::log::Log;
@@ -31,6 +33,10 @@ pub(super) struct Data {
     pub(super) progress: Progress,
     /// Models and pictures that were read.
     pub(super) read: BTreeSet<String>,
+    /// How the assets were made.
+    pub(super) recipes: Recipes,
+    /// Models that parts were taken from.
+    pub(super) models: Models,
     /// Points that entities stay turned to when they move.
     pub(super) aims: HashMap<Entity, Vec3>,
     /// Names that were looked up or given. The world alone would search all names each time.
@@ -62,6 +68,8 @@ impl Stage {
             log: log.clone(),
             progress: progress.clone(),
             read: BTreeSet::new(),
+            recipes: Recipes::default(),
+            models: Models::default(),
             aims: HashMap::new(),
             names: HashMap::new(),
             triangles: 0,

@@ -3,6 +3,7 @@
 use lightbench_assets::files::{FileError, Files, Origin};
 
 use super::SCENES;
+use super::saved::EXTENSION;
 use crate::host::stem_in;
 
 /// A scene that can be chosen.
@@ -20,7 +21,8 @@ pub struct SceneEntry {
     pub origin: Origin,
 }
 
-/// All scenes, those of the project over those of the program, by name.
+/// All scenes, those of the project over those of the program, by name: scripts first, then files
+/// that hold a world.
 ///
 /// Title and description are read from the comment at the top of the file; no script is run.
 ///
@@ -43,6 +45,18 @@ pub fn list_scenes(files: &Files) -> Result<Vec<SceneEntry>, FileError> {
             name,
             path: file.path,
             description,
+            origin: file.origin,
+        });
+    }
+    // A file that holds a world is asked for by its path, and its name says what it is.
+    for file in files.list(SCENES, EXTENSION)? {
+        let name = file.path.rsplit('/').next().unwrap_or(&file.path);
+        let title = name.to_owned();
+        entries.push(SceneEntry {
+            title,
+            name: file.path.clone(),
+            path: file.path,
+            description: String::new(),
             origin: file.origin,
         });
     }

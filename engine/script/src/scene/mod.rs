@@ -1,4 +1,4 @@
-//! Scene files: `scripts/scenes/*.rhai` build worlds and move them.
+//! Scene files: `scripts/scenes/*.rhai` build worlds and move them, `*.scene` hold them.
 
 mod bounds;
 mod cameras;
@@ -9,7 +9,10 @@ mod lights;
 mod list;
 mod materials;
 mod models;
+mod motion;
 mod parameters;
+mod recipes;
+mod saved;
 mod shapes;
 mod state;
 mod textures;
@@ -18,7 +21,8 @@ use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, Progress};
 use lightbench_render::problem::suggestion;
 use lightbench_render::{Place, Problem, Problems};
-use lightbench_world::{Camera, Entity, World};
+use lightbench_world::systems::{FrameSystems, update_computed};
+use lightbench_world::{Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
 use rhai::{AST, Dynamic, EvalAltResult, Module, Scope};
 
 use crate::host::{Extras, Host, find};
@@ -27,9 +31,11 @@ use crate::log::LogLine;
 use crate::names::{Names, list as enumerate};
 use crate::settings::Settings;
 use data::Stage;
+use saved::Textures;
 
 pub use list::{SceneEntry, list_scenes};
 pub use parameters::{SceneParameter, SceneParameterKind};
+pub use saved::EXTENSION as SCENE_EXTENSION;
 
 /// The folder of the scene files.
 pub const SCENES: &str = "scripts/scenes";
@@ -50,6 +56,10 @@ pub struct Scene {
     update: Option<AST>,
     /// Whether an update failed; the script is not called again.
     stopped: bool,
+    /// What moves and computes beside the script.
+    systems: FrameSystems,
+    /// What the script took in the last step.
+    script_time: Option<SystemTime>,
 }
 
 impl std::fmt::Debug for Scene {
@@ -62,9 +72,10 @@ impl std::fmt::Debug for Scene {
     }
 }
 
-/// Runs a scene file.
+/// Runs a scene file, or reads one that holds a world.
 ///
-/// `name_or_path` is a name as in `atrium`, or a path from the project's folder. `settings` gives
+/// `name_or_path` is a name as in `atrium`, or a path from the project's folder; a path that ends
+/// in `.scene` is that of a world. `settings` gives
 /// values to the parameters that the file declares. Runs on the calling thread; give it one of its
 /// own where a window must stay alive, and stop it through `progress`.
 ///
@@ -96,22 +107,16 @@ pub fn load_scene_within(
         let stopped = Problem::new(Place::file(path), "the script was stopped");
         return Err(stopped.into());
     }
-    let (host, stage) = host(files, settings, limits, progress);
+    if path.ends_with(&format!(".{}", saved::EXTENSION)) {
+        return saved::load(files, &path, settings, progress, limits);
+    }
+    let (host, stage, _) = host(files, settings, limits, progress);
     let ast = host.load(&path)?;
     let update = update_call(&host, &path)?;
     host.watch.start(limits.load_time);
     let module = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine)
         .map_err(|error| host.compiler.explain(&error, &path))?;
-    let mut scene = Scene {
-        world: World::new(),
-        assets: Assets::new(),
-        parameters: Vec::new(),
-        path,
-        host,
-        stage,
-        update,
-        stopped: false,
-    };
+    let mut scene = Scene::new(path, host, stage, update);
     scene
         .host
         .engine
@@ -126,7 +131,7 @@ const SCRIPT_MODULE: &str = "scene_script";
 /// The names of everything that scene scripts can call.
 #[must_use]
 pub fn scene_names() -> Names {
-    let (host, _) = host(
+    let (host, ..) = host(
         &Files::shipped(),
         &Settings::new(),
         &Limits::default(),
@@ -135,8 +140,14 @@ pub fn scene_names() -> Names {
     host.compiler.names.clone()
 }
 
-fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress) -> (Host, Stage) {
+fn host(
+    files: &Files,
+    settings: &Settings,
+    limits: &Limits,
+    progress: &Progress,
+) -> (Host, Stage, Textures) {
     let mut stage = None;
+    let defined = Textures::default();
     let host = Host::new(
         files,
         limits,
@@ -146,9 +157,11 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
                 let made = Stage::new(files, settings, limits, watch, log, progress);
                 parameters::register(api, &made);
                 entities::register(api, &made);
+                motion::register(api, &made);
                 bounds::register(api, &made);
                 shapes::register(api, &made);
                 textures::register(api, &made);
+                saved::register(api, &defined);
                 materials::register(api, &made);
                 models::register(api, &made);
                 lights::register(api, &made);
@@ -161,7 +174,7 @@ fn host(files: &Files, settings: &Settings, limits: &Limits, progress: &Progress
     );
     let stage = stage
         .unwrap_or_else(|| Stage::new(files, settings, limits, &host.watch, &host.log, progress));
-    (host, stage)
+    (host, stage, defined)
 }
 
 /// What calls the script's `update`, with as many arguments as it takes.
@@ -194,6 +207,21 @@ fn update_call(host: &Host, path: &str) -> Result<Option<AST>, Problem> {
 }
 
 impl Scene {
+    fn new(path: String, host: Host, stage: Stage, update: Option<AST>) -> Self {
+        Self {
+            world: World::new(),
+            assets: Assets::new(),
+            parameters: Vec::new(),
+            path,
+            host,
+            stage,
+            update,
+            stopped: false,
+            systems: FrameSystems::default(),
+            script_time: None,
+        }
+    }
+
     /// Takes over what the script made, and checks that everything that was set has been used.
     fn finish(&mut self) -> Result<(), Problems> {
         let mut data = self.stage.lock();
@@ -224,15 +252,47 @@ impl Scene {
         self.parameters = data.parameters.clone();
         std::mem::swap(&mut self.world, &mut data.world);
         std::mem::swap(&mut self.assets, &mut data.assets);
+        drop(data);
+        // Listed from the start, and not called yet.
+        self.script_time = self
+            .update
+            .is_some()
+            .then(|| SystemTime::of("script", || ()).0);
+        self.run_systems(0.0, 0.0);
         Ok(())
     }
 
-    /// Calls the script's `update(time, dt)`, where it has one.
+    /// Brings the scene to the next moment: calls the script's `update(time, dt)`, where it has
+    /// one, and runs all systems of the world. `dt` is the step that ends at `time`, in seconds;
+    /// the same steps give the same scene, however long they take.
     ///
     /// # Errors
-    /// What went wrong in the script, once: after an error the script is not called again, and what
-    /// it had changed stays.
+    /// What went wrong in the script, once: after an error the script is not called again, what it
+    /// had changed stays, and the systems go on.
     pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
+        let (took, result) = SystemTime::of("script", || self.call_update(time, dt));
+        self.script_time = self.update.is_some().then_some(took);
+        self.run_systems(time, dt);
+        result
+    }
+
+    fn run_systems(&mut self, time: f64, dt: f64) {
+        let meshes = self.assets.mesh_bounds();
+        self.systems.run(&mut self.world, meshes, time, dt as f32);
+    }
+
+    /// Brings what the systems compute up to date with changes from outside, without letting time
+    /// pass.
+    pub fn refresh(&mut self) {
+        update_computed(&mut self.world, self.assets.mesh_bounds());
+    }
+
+    /// What the script and each system took in the last step.
+    pub fn system_times(&self) -> impl Iterator<Item = SystemTime> + '_ {
+        self.script_time.iter().cloned().chain(self.systems.times())
+    }
+
+    fn call_update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
         let Some(call) = self.update.clone().filter(|_| !self.stopped) else {
             return Ok(());
         };
@@ -287,6 +347,14 @@ impl Scene {
         self.update.is_some() && !self.stopped
     }
 
+    /// Whether anything changes as time passes: by the script, or by a component.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.has_update()
+            || !self.world.columns::<Velocity>().is_empty()
+            || !self.world.columns::<RigidAnimation>().is_empty()
+    }
+
     /// The camera that the view is drawn from: the first active one.
     #[must_use]
     pub fn camera(&self) -> Option<Entity> {
@@ -322,5 +390,7 @@ const _: fn() = || {
     assert_send::<Scene>();
 };
 
+#[cfg(test)]
+mod saved_tests;
 #[cfg(test)]
 mod tests;

@@ -328,3 +328,82 @@ fn what_happens_to_the_progress_of_a_load_later_does_not_stop_the_scene() {
     let place: Transform = named(&scene, "box");
     assert_eq!(place.translation, Vec3::new(2.0, 0.0, 0.0));
 }
+
+#[test]
+fn components_move_what_no_script_touches() {
+    let mut scene = good(
+        r#"
+        spawn("cart").at(1, 0, 0).velocity(2, 0, 0);
+        spawn("wheel").parent(entity("cart")).spin(0, 90, 0);
+        spawn("lift").animate_position([[0, vec3(0, 0, 0)], [2, vec3(0, 4, 0)]]).animation_repeat("once");
+        spawn("door").animate_rotation([[0, vec3(0, 0, 0)], [1, vec3(0, 90, 0)]], "step");
+        spawn("heart").animate_scale([[0, 1], [1, 2], [2, 1]], "smooth").animation_speed(2).animation_start(1);
+        "#,
+    );
+    assert!(scene.moves() && !scene.has_update());
+    // Posed as soon as it is loaded.
+    assert_eq!(named::<Transform>(&scene, "heart").scale, Vec3::splat(2.0));
+    for frame in 1..=60 {
+        scene.update(f64::from(frame) / 60.0, 1.0 / 60.0).unwrap();
+    }
+    let cart: Transform = named(&scene, "cart");
+    assert!(cart.translation.distance(Vec3::new(3.0, 0.0, 0.0)) < 1e-4);
+    let wheel: Transform = named(&scene, "wheel");
+    assert!((wheel.rotation * Vec3::X).distance(Vec3::NEG_Z) < 1e-4);
+    let lift: Transform = named(&scene, "lift");
+    assert!(lift.translation.distance(Vec3::new(0.0, 2.0, 0.0)) < 1e-5);
+    let door: Transform = named(&scene, "door");
+    assert!((door.rotation * Vec3::X).distance(Vec3::X) < 1e-5);
+    let heart: Transform = named(&scene, "heart");
+    assert!(heart.scale.distance(Vec3::splat(2.0)) < 1e-4);
+    // The systems have brought matrices along.
+    let matrix: lightbench_world::WorldMatrix = named(&scene, "wheel");
+    assert!((matrix.matrix.translation.x - 3.0).abs() < 1e-4);
+    let names: Vec<_> = scene.system_times().map(|time| time.name).collect();
+    assert_eq!(names, ["velocity", "animation", "world matrices", "bounds"]);
+}
+
+#[test]
+fn the_same_steps_give_the_same_scene() {
+    let text = r#"
+        for i in 0..50 {
+            spawn("mote " + i).velocity(0.1 * i, 1, 0).spin(i, 2 * i, 0)
+                .animate_scale([[0, 1], [0.3 + i, 2]], "smooth");
+        }
+        fn update(time, dt) { entity("mote 3").at(time, 0, 0); }
+    "#;
+    let run = || {
+        let mut scene = good(text);
+        for frame in 1..=30 {
+            scene.update(f64::from(frame) / 60.0, 1.0 / 60.0).unwrap();
+        }
+        let places = scene.world.columns::<Transform>();
+        (0..places.len())
+            .map(|row| places.row(row))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn bad_animations_are_told() {
+    for (call, expected) in [
+        (
+            "animate_position([1, 2])",
+            "key 1 of the animation is no pair",
+        ),
+        ("animate_position([[0, 1]])", "key 1: the value is no point"),
+        (
+            "animate_position([[1, vec3(0, 0, 0)], [1, vec3(0, 0, 0)]])",
+            "must ascend",
+        ),
+        (
+            "animate_scale([[0, 1]], \"cubic\")",
+            "`mode` of `animate_scale` must be",
+        ),
+        ("animation_repeat(\"twice\")", "loop"),
+    ] {
+        let problems = load(&format!("spawn(\"a\").{call};")).unwrap_err();
+        assert!(problems.to_string().contains(expected), "{problems}");
+    }
+}

@@ -8,6 +8,8 @@ use lightbench_assets::{MAX_TEXTURE_SIZE, Texture, TextureId};
 use lightbench_world::glam::Vec3;
 
 use super::data::{Data, Stage};
+use super::models;
+use super::recipes::then;
 use crate::api::{Api, Arguments, Mistake, ScriptType};
 
 /// How a texture is made.
@@ -27,6 +29,11 @@ enum Kind {
     Picture {
         path: String,
     },
+    /// The picture of this number in a model.
+    OfModel {
+        path: String,
+        number: usize,
+    },
 }
 
 impl Kind {
@@ -40,6 +47,7 @@ impl Kind {
             Self::Weave(_) => "weave",
             Self::Checker { .. } => "checker",
             Self::Picture { .. } => "picture",
+            Self::OfModel { .. } => "model_texture",
         }
     }
 }
@@ -53,6 +61,8 @@ struct Plan {
     kind: Kind,
     color: Option<TextureId>,
     normal: Option<TextureId>,
+    /// The calls that made it, for files.
+    recipe: Option<String>,
 }
 
 impl ScriptType for Pattern {
@@ -60,11 +70,13 @@ impl ScriptType for Pattern {
 }
 
 impl Pattern {
-    fn new(kind: Kind) -> Self {
+    /// A texture that a call makes.
+    fn new(call: &Arguments, kind: Kind) -> Self {
         Self(Arc::new(Mutex::new(Plan {
             kind,
             color: None,
             normal: None,
+            recipe: call.spelled(),
         })))
     }
 
@@ -77,6 +89,7 @@ impl Pattern {
         let mut plan = self.lock();
         if plan.color.is_none() {
             plan.paint(data, Purpose::Color)?;
+            plan.note(data);
         }
         plan.color
             .ok_or_else(|| Mistake::new("the texture has no colours"))
@@ -87,6 +100,7 @@ impl Pattern {
         let mut plan = self.lock();
         if plan.normal.is_none() {
             plan.paint(data, Purpose::Data)?;
+            plan.note(data);
         }
         plan.normal.ok_or_else(|| {
             Mistake::new(format!(
@@ -104,6 +118,15 @@ impl Pattern {
 }
 
 impl Plan {
+    /// Notes how the pictures were made.
+    fn note(&self, data: &mut Data) {
+        if let Some(recipe) = &self.recipe {
+            for id in [self.color, self.normal].into_iter().flatten() {
+                data.recipes.textures.insert(id, recipe.clone());
+            }
+        }
+    }
+
     fn paint(&mut self, data: &mut Data, purpose: Purpose) -> Result<(), Mistake> {
         if data
             .progress
@@ -142,6 +165,12 @@ impl Plan {
                 }
                 return Ok(());
             }
+            Kind::OfModel { path, number } => {
+                let texture = models::texture(data, path, *number)?;
+                let id = data.assets.add_shared_texture(texture);
+                (self.color, self.normal) = (Some(id), Some(id));
+                return Ok(());
+            }
         };
         self.color = Some(data.assets.add_texture(surface.base_color));
         self.normal = Some(data.assets.add_texture(surface.normal));
@@ -161,7 +190,7 @@ fn read_picture(data: &mut Data, path: &str, purpose: Purpose) -> Result<Texture
 pub(super) fn register(api: &mut Api, stage: &Stage) {
     api.object::<Pattern>();
     let mut pattern = |form: &str, about: &'static str, kind: Kind| {
-        api.function(form, about, move |_| Ok(Pattern::new(kind.clone())));
+        api.function(form, about, move |a| Ok(Pattern::new(a, kind.clone())));
     };
     pattern(
         "stone_texture()",
@@ -197,11 +226,16 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
         "checker_texture(squares)",
         "A checkerboard with that many squares along each side. Two colours.",
         |a| {
-            Ok(Pattern::new(Kind::Checker {
-                size: 512,
-                squares: a.whole(0, 2, 512)? as u32,
-                colors: [Vec3::splat(0.7), Vec3::splat(0.1)],
-            }))
+            let squares = a.whole(0, 2, 512)? as u32;
+            let colors = [Vec3::splat(0.7), Vec3::splat(0.1)];
+            Ok(Pattern::new(
+                a,
+                Kind::Checker {
+                    size: 512,
+                    squares,
+                    colors,
+                },
+            ))
         },
     );
     let asked = stage.clone();
@@ -214,7 +248,16 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
             data.files
                 .origin(&path)
                 .map_err(|error| Mistake::new(error.to_string()))?;
-            Ok(Pattern::new(Kind::Picture { path }))
+            Ok(Pattern::new(a, Kind::Picture { path }))
+        },
+    );
+    api.function(
+        "model_texture(path, number)",
+        "One of the pictures of a model, as the model uses it, counted from 0.",
+        |a| {
+            let path = a.text(0)?;
+            let number = a.whole(1, 0, i64::from(u32::MAX))? as usize;
+            Ok(Pattern::new(a, Kind::OfModel { path, number }))
         },
     );
     setters(api);
@@ -238,6 +281,7 @@ fn setter(
             )));
         }
         (plan.color, plan.normal) = (None, None);
+        plan.recipe = then(plan.recipe.take(), a);
         drop(plan);
         Ok(pattern)
     });
@@ -258,7 +302,7 @@ fn setters(api: &mut Api) {
                 | Kind::Tiles(Tiles { size, .. })
                 | Kind::Weave(Weave { size, .. })
                 | Kind::Checker { size, .. } => *size = pixels,
-                Kind::Picture { .. } => return Ok(false),
+                Kind::Picture { .. } | Kind::OfModel { .. } => return Ok(false),
             }
             Ok(true)
         },

@@ -1,7 +1,10 @@
 //! Scene files: a world as text.
 //!
 //! ```text
-//! lightbench scene 1
+//! lightbench scene 2
+//!
+//! mesh "vase" = model_mesh("models/vase.obj", 0)
+//! material "glaze" = material("glaze").color(0.8, 0.7, 0.6)
 //!
 //! entity #1
 //!   children = [#2]
@@ -15,12 +18,15 @@
 //!     rotation = quat(0.0, 0.0, 0.0, 1.0)
 //!     scale = (1.0, 1.0, 1.0)
 //!   MeshRenderer
-//!     mesh = mesh "vase.obj"
+//!     mesh = mesh "vase"
 //!     material = material "glaze"
 //!     visible = true
 //! ```
 //!
-//! The first line names the format and its version. An entity has a number, which
+//! The first line names the format and its version. Lines that begin with `mesh`,
+//! `material` or `texture` say how the assets that the entities name are made: what
+//! stands behind the `=` belongs to whoever knows assets ([`AssetNames`]), and is a
+//! call of the scenes' script language in Lightbench. An entity has a number, which
 //! it keeps for ever: a scene that is loaded, changed and saved again differs from
 //! its old text only where it was changed. Two spaces deep stand its children in
 //! order, its tags, its group and its components in the order of their
@@ -32,6 +38,8 @@
 //! `quat(x, y, z, w)`, `"text"`, `#2` or `none` for an entity, `mesh "name"`,
 //! `material "name"`, `[a, b]`, `{ "name": a }`. Numbers are written with as many
 //! digits as it takes to read back the same bits.
+//!
+//! Version 1 had no lines for assets; its files are read as they are.
 
 mod read;
 mod text;
@@ -47,7 +55,7 @@ pub use read::read;
 pub use write::write;
 
 /// The version that [`write()`] writes and the newest that [`read()`] knows.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What went wrong with a scene file.
 #[derive(Debug, thiserror::Error)]
@@ -100,8 +108,30 @@ impl SceneError {
     }
 }
 
+/// How one asset is made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Definition {
+    /// What it is: `mesh`, `material` or `texture`.
+    pub kind: &'static str,
+    /// Its name, which is the only one of its kind in the file.
+    pub name: String,
+    /// How it is made, on one line.
+    pub recipe: String,
+}
+
 /// Knows meshes and materials by name. The world only has their handles.
 pub trait AssetNames {
+    /// How the assets are made, in the order in which they can be made.
+    fn definitions(&self) -> Vec<Definition> {
+        Vec::new()
+    }
+    /// Makes an asset as a file says.
+    ///
+    /// # Errors
+    /// A sentence that says what is wrong with the recipe.
+    fn define(&mut self, kind: &str, name: &str, _recipe: &str) -> Result<(), String> {
+        Err(format!("the {kind} `{name}` can't be made here"))
+    }
     /// The name of a mesh; `None` for a handle that means nothing, which is then
     /// written as a number.
     fn mesh_name(&self, mesh: MeshId) -> Option<String>;

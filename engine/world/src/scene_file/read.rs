@@ -24,7 +24,7 @@ pub fn read(text: &str, assets: &mut dyn AssetNames) -> Result<World, SceneError
     let mut world = World::new();
     let mut entities = HashMap::new();
     for &(line, content) in &lines {
-        if !content.starts_with(' ') {
+        if !content.starts_with(' ') && definition_kind(content).is_none() {
             let number = entity_number(line, content)?;
             let entity = world.spawn();
             if entities.insert(number, entity).is_some() {
@@ -67,6 +67,17 @@ fn check_version(line: &str) -> Result<(), SceneError> {
     }
 }
 
+/// The kinds of assets that a file may define.
+const KINDS: [&str; 3] = ["mesh", "material", "texture"];
+
+/// What a line defines and what follows the kind, if it defines an asset.
+fn definition_kind(content: &str) -> Option<(&'static str, &str)> {
+    KINDS.into_iter().find_map(|kind| {
+        let rest = content.strip_prefix(kind)?;
+        rest.starts_with(' ').then_some((kind, rest))
+    })
+}
+
 fn entity_number(line: usize, content: &str) -> Result<u32, SceneError> {
     let number = content.strip_prefix("entity #").map(str::trim_end);
     match number.map(str::parse::<u32>) {
@@ -101,6 +112,9 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn line(&mut self, line: usize, content: &str) -> Result<(), String> {
         let inside = content.trim_start_matches(' ');
+        if let Some((kind, rest)) = definition_kind(content) {
+            return self.define(kind, rest);
+        }
         match (content.len() - inside.len(), self.block) {
             (0, _) => {
                 let number = entity_number(line, content).map_err(|error| error.to_string())?;
@@ -123,6 +137,17 @@ impl Reader<'_> {
                 "expected a line 0, 2 or 4 spaces deep, found {depth}"
             )),
         }
+    }
+
+    fn define(&mut self, kind: &str, rest: &str) -> Result<(), String> {
+        if self.entity != Entity::NONE {
+            return Err("assets must be defined before the first entity".to_owned());
+        }
+        let parser = Parser::new(rest, self.assets, &|_| None);
+        let (name, rest) = parser.leading_text()?;
+        let recipe = rest.trim_start().strip_prefix("= ");
+        let recipe = recipe.ok_or_else(|| format!("expected ` = ` and how the {kind} is made"))?;
+        self.assets.define(kind, &name, recipe.trim())
     }
 
     fn value(&mut self, text: &str) -> Result<Value, String> {

@@ -138,6 +138,12 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// A text in quotes at the beginning of a line's rest, and what follows it.
+    pub fn leading_text(mut self) -> Result<(String, String), String> {
+        let text = self.text()?;
+        Ok((text, self.rest.to_owned()))
+    }
+
     fn accept(&mut self, token: &str) -> bool {
         match self.rest.trim_start().strip_prefix(token) {
             Some(rest) => {

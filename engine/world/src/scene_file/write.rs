@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use super::text::write_value;
-use super::{AssetNames, VERSION};
+use super::text::{write_text, write_value};
+use super::{AssetNames, Definition, VERSION};
 use crate::components::{KeptText, SceneNumber};
 use crate::entity::Entity;
 use crate::reflect::Role;
@@ -20,6 +20,16 @@ pub fn write(world: &mut World, assets: &dyn AssetNames) -> String {
         (numbered.get(&number) == Some(&entity)).then_some(number)
     };
     let mut text = format!("lightbench scene {VERSION}\n");
+    let definitions = assets.definitions();
+    if !definitions.is_empty() {
+        text.push('\n');
+    }
+    for Definition { kind, name, recipe } in definitions {
+        text.push_str(kind);
+        text.push(' ');
+        write_text(&mut text, &name);
+        writeln!(text, " = {recipe}").ok();
+    }
     for (&id, &entity) in &numbered {
         write!(text, "\nentity #{id}\n").ok();
         let mut attribute = |name: &str, value: Value| {

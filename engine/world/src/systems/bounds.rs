@@ -33,18 +33,29 @@ pub(crate) struct BoundsState {
 /// the origin. Call [`update_world_matrices`](super::update_world_matrices)
 /// first.
 pub fn update_bounds(world: &mut World, mesh_bounds: &[MeshBounds]) {
-    let mut state = std::mem::take(&mut world.systems.bounds);
+    know_meshes(world, mesh_bounds);
+    update_known_bounds(world);
+}
+
+/// Gives the next update another table of meshes.
+pub(super) fn know_meshes(world: &mut World, mesh_bounds: &[MeshBounds]) {
+    let state = &mut world.systems.bounds;
     if state.meshes != mesh_bounds {
         mesh_bounds.clone_into(&mut state.meshes);
         state.seen = Tick::START;
     }
+}
+
+/// [`update_bounds`] with the table that is known.
+pub(super) fn update_known_bounds(world: &mut World) {
+    let mut state = std::mem::take(&mut world.systems.bounds);
     let seen = state.seen;
     let changed = world.columns::<MeshRenderer>().any_changed_since(seen)
         || world.columns::<WorldMatrix>().any_changed_since(seen);
     if changed {
         state.seen = world.observe();
         let mut output = world.take_columns::<WorldBounds>();
-        update_changed(world, &mut output, mesh_bounds, seen);
+        update_changed(world, &mut output, &state.meshes, seen);
         world.put_columns(output);
     }
     world.systems.bounds = state;

@@ -4,11 +4,13 @@
 //! touches only rows whose inputs have changed.
 
 mod bounds;
+mod frame;
 mod motion;
 mod world_matrices;
 
 pub use bounds::{MeshBounds, update_bounds};
-pub use motion::{animate, motion_schedule, move_by_velocity};
+pub use frame::{FrameSystems, update_computed};
+pub use motion::{animate, move_by_velocity};
 pub use world_matrices::update_world_matrices;
 
 /// What the systems remember from one run to the next.

@@ -8,27 +8,25 @@ use crate::query::Join;
 use crate::schedule::Schedule;
 use crate::world::World;
 
-use super::update_world_matrices;
-
 /// Entities that move evenly, as runs of rows.
 type Moving = Join<(Velocity, Transform), 2>;
 
-/// A schedule of all systems that move entities, world matrices last.
-pub fn motion_schedule() -> Schedule {
-    let mut schedule = Schedule::default();
+/// Adds the systems that move entities.
+pub(super) fn add_motion(schedule: &mut Schedule) {
     let mut moving = Moving::default();
     schedule.add::<(Velocity,), (Transform,)>(
         "velocity",
         move |(velocities,), (places,), context| {
-            integrate(&mut moving, velocities, places, context.step);
+            // Also where no time passes: a product with zero would count as a change.
+            if context.step != 0.0 {
+                integrate(&mut moving, velocities, places, context.step);
+            }
         },
     );
     schedule.add::<(RigidAnimation,), (Transform,)>(
         "animation",
         |(animations,), (places,), context| pose(animations, places, context.time),
     );
-    schedule.add_exclusive("world matrices", update_world_matrices);
-    schedule
 }
 
 /// Moves every entity with a Velocity and a Transform by a step in seconds.
@@ -128,6 +126,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::curve::{Curve, Interpolation};
+    use crate::systems::FrameSystems;
     use crate::{Entity, WorldMatrix};
     use std::f32::consts::PI;
 
@@ -144,11 +143,11 @@ mod tests {
         };
         let still = world.spawn_batch([(Transform::default(), Velocity::default())])[0];
         let moving = world.spawn_batch([(velocity, Transform::default())])[0];
-        let mut schedule = motion_schedule();
-        schedule.run(&mut world, 0.0);
+        let mut systems = FrameSystems::default();
+        systems.run(&mut world, &[], 0.0, 0.0);
         let seen = world.observe();
-        for _ in 0..64 {
-            schedule.run(&mut world, 1.0 / 128.0);
+        for step in 1..=64 {
+            systems.run(&mut world, &[], f64::from(step) / 128.0, 1.0 / 128.0);
         }
         let found = place(&world, moving);
         assert!(found.translation.distance(Vec3::new(0.5, 0.0, -1.0)) < 1e-5);

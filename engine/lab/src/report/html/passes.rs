@@ -28,6 +28,7 @@ pub fn times_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
                 charts::frames(w, c, analysis);
             }
             charts::passes(w, c);
+            system_table(w, c);
             let text = format!(
                 "In the tables, times are over {} frames, and counts and bytes are those of one \
                  frame. Bytes are modelled from the declared formats and sizes. The times in the \
@@ -40,6 +41,44 @@ pub fn times_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
             }
         },
     );
+}
+
+/// What the world's systems cost, before any pass, with the extraction of each pipeline.
+fn system_table(w: &mut Writer, c: &Comparison) {
+    let mut names: Vec<&str> = Vec::new();
+    for system in c.pipelines.iter().flat_map(|p| &p.systems) {
+        if !names.contains(&system.name.as_str()) {
+            names.push(&system.name);
+        }
+    }
+    if names.is_empty() {
+        return;
+    }
+    w.leaf("h3", &[], "Systems of the world");
+    let text = "Before a frame is drawn, the script and the systems move the world, changed rows \
+                are copied, and what the camera sees is extracted. Each moment of the scene is \
+                reached once and drawn by every pipeline.";
+    w.leaf("p", &[("class", "note")], text);
+    let mut columns = vec![words("System")];
+    for p in &c.pipelines {
+        columns.push(numbers(&format!("{}, median", p.label())));
+    }
+    let rows: Vec<Vec<String>> = names
+        .into_iter()
+        .map(|name| {
+            let median = |p: &PipelineResult| {
+                let system = p.systems.iter().find(|system| system.name == name);
+                let [median, _] = time_cells(system.map(|system| system.thread_ms.as_slice()));
+                median
+            };
+            let mut row = vec![name.to_owned()];
+            row.extend(c.pipelines.iter().map(median));
+            row
+        })
+        .collect();
+    // The driver has no part in them, whether it is software or not.
+    let caption = "Systems, ms of the CPU thread that ran each, a frame.";
+    table(w, caption, &columns, &rows);
 }
 
 fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {

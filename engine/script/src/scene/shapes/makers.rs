@@ -19,10 +19,13 @@ fn flat(api: &mut Api) {
         "plane(width, depth)",
         "A horizontal rectangle around the origin, facing up.",
         |a| {
-            Ok(Shape::new(Kind::Plane {
-                size: Vec2::new(length(a, 0)?, length(a, 1)?),
-                cells: UVec2::ONE,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Plane {
+                    size: Vec2::new(length(a, 0)?, length(a, 1)?),
+                    cells: UVec2::ONE,
+                },
+            ))
         },
     );
     for form in ["box(width, height, depth)", "box(size)"] {
@@ -34,7 +37,7 @@ fn flat(api: &mut Api) {
                     None => Vec3::splat(length(a, 0)?),
                 },
             };
-            Ok(Shape::new(Kind::Box { size }))
+            Ok(Shape::new(a, Kind::Box { size }))
         });
     }
 }
@@ -46,7 +49,7 @@ fn corners(api: &mut Api) {
          counter-clockwise as seen from its front.",
         |a| {
             let corners = faces::read(a)?;
-            Ok(Shape::new(Kind::Faces { corners }))
+            Ok(Shape::new(a, Kind::Faces { corners }))
         },
     );
 }
@@ -56,55 +59,70 @@ fn round(api: &mut Api) {
         "sphere(radius)",
         "A sphere around the origin, of rings.",
         |a| {
-            Ok(Shape::new(Kind::Sphere {
-                radius: length(a, 0)?,
-                segments: 32,
-                rings: 16,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Sphere {
+                    radius: length(a, 0)?,
+                    segments: 32,
+                    rings: 16,
+                },
+            ))
         },
     );
     api.function(
         "icosphere(radius)",
         "A sphere around the origin whose triangles are nearly equal.",
         |a| {
-            Ok(Shape::new(Kind::Icosphere {
-                radius: length(a, 0)?,
-                subdivisions: 3,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Icosphere {
+                    radius: length(a, 0)?,
+                    subdivisions: 3,
+                },
+            ))
         },
     );
     api.function(
         "cylinder(radius, height)",
         "An upright closed cylinder around the origin.",
         |a| {
-            Ok(Shape::new(Kind::Cylinder {
-                radius: length(a, 0)?,
-                height: length(a, 1)?,
-                segments: 32,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Cylinder {
+                    radius: length(a, 0)?,
+                    height: length(a, 1)?,
+                    segments: 32,
+                },
+            ))
         },
     );
     api.function(
         "cone(radius, height)",
         "An upright closed cone around the origin, its tip above.",
         |a| {
-            Ok(Shape::new(Kind::Cone {
-                radius: length(a, 0)?,
-                height: length(a, 1)?,
-                segments: 32,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Cone {
+                    radius: length(a, 0)?,
+                    height: length(a, 1)?,
+                    segments: 32,
+                },
+            ))
         },
     );
     api.function(
         "torus(radius, tube)",
         "A ring around the y axis: its radius to the middle of the tube, and the tube's own.",
         |a| {
-            Ok(Shape::new(Kind::Torus {
-                radius: length(a, 0)?,
-                tube: length(a, 1)?,
-                segments: 48,
-                sides: 16,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Torus {
+                    radius: length(a, 0)?,
+                    tube: length(a, 1)?,
+                    segments: 48,
+                    sides: 16,
+                },
+            ))
         },
     );
     api.function(
@@ -113,10 +131,13 @@ fn round(api: &mut Api) {
          bottom to top. Smooth where the outline bends by less than 40 degrees.",
         |a| {
             let points = outline(a, 0)?;
-            Ok(Shape::new(Kind::Lathe {
-                points,
-                segments: 32,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Lathe {
+                    points,
+                    segments: 32,
+                },
+            ))
         },
     );
 }
@@ -146,13 +167,16 @@ fn building(api: &mut Api) {
         "A piece of wall on the line y = 0, along x, with a round opening in its foot: the wall \
          around an arch. The height is at least the radius, the width twice as much.",
         |a| {
-            Ok(Shape::new(Kind::ArchedWall(ArchedWall {
-                width: length(a, 0)?,
-                height: length(a, 1)?,
-                depth: length(a, 2)?,
-                radius: length(a, 3)?,
-                ..ArchedWall::default()
-            })))
+            Ok(Shape::new(
+                a,
+                Kind::ArchedWall(ArchedWall {
+                    width: length(a, 0)?,
+                    height: length(a, 1)?,
+                    depth: length(a, 2)?,
+                    radius: length(a, 3)?,
+                    ..ArchedWall::default()
+                }),
+            ))
         },
     );
     api.function(
@@ -160,21 +184,27 @@ fn building(api: &mut Api) {
         "A band along a wall, along x, from its outline: an array of [distance from the wall, \
          height] from bottom to top. It stands out towards +z, and is open behind and at its ends.",
         |a| {
-            Ok(Shape::new(Kind::Moulding {
-                points: outline(a, 0)?,
-                length: length(a, 1)?,
-            }))
+            Ok(Shape::new(
+                a,
+                Kind::Moulding {
+                    points: outline(a, 0)?,
+                    length: length(a, 1)?,
+                },
+            ))
         },
     );
     api.function(
         "column(radius, height)",
         "A column on the ground, after the Tuscan order, with base, shaft and capital.",
         |a| {
-            Ok(Shape::new(Kind::Column(Column {
-                radius: length(a, 0)?,
-                height: length(a, 1)?,
-                ..Column::default()
-            })))
+            Ok(Shape::new(
+                a,
+                Kind::Column(Column {
+                    radius: length(a, 0)?,
+                    height: length(a, 1)?,
+                    ..Column::default()
+                }),
+            ))
         },
     );
     api.function(
@@ -182,23 +212,29 @@ fn building(api: &mut Api) {
         "A round arch of wedges on the line y = 0: its inner and outer radius and the thickness \
          of its wall.",
         |a| {
-            Ok(Shape::new(Kind::Arch(Arch {
-                inner_radius: length(a, 0)?,
-                outer_radius: length(a, 1)?,
-                depth: length(a, 2)?,
-                ..Arch::default()
-            })))
+            Ok(Shape::new(
+                a,
+                Kind::Arch(Arch {
+                    inner_radius: length(a, 0)?,
+                    outer_radius: length(a, 1)?,
+                    depth: length(a, 2)?,
+                    ..Arch::default()
+                }),
+            ))
         },
     );
     api.function(
         "cloth(width, height)",
         "A cloth that hangs down from the line y = 0. Draw it with a two-sided material.",
         |a| {
-            Ok(Shape::new(Kind::Cloth(Cloth {
-                width: length(a, 0)?,
-                height: length(a, 1)?,
-                ..Cloth::default()
-            })))
+            Ok(Shape::new(
+                a,
+                Kind::Cloth(Cloth {
+                    width: length(a, 0)?,
+                    height: length(a, 1)?,
+                    ..Cloth::default()
+                }),
+            ))
         },
     );
 }

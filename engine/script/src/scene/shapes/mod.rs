@@ -11,6 +11,7 @@ use lightbench_world::glam::{UVec2, Vec2, Vec3};
 
 use super::data::{Data, Stage};
 use super::faces;
+use super::recipes::then;
 use crate::api::{Api, Arguments, Mistake, ScriptType};
 
 /// The most that a length of a shape may be, in metres.
@@ -147,6 +148,8 @@ struct Plan {
     repeat: Vec2,
     /// Made at the first use, and shared by all entities that use the shape.
     mesh: Option<MeshId>,
+    /// The calls that made it, for files.
+    recipe: Option<String>,
 }
 
 impl ScriptType for Shape {
@@ -154,11 +157,13 @@ impl ScriptType for Shape {
 }
 
 impl Shape {
-    fn new(kind: Kind) -> Self {
+    /// A shape that a call makes.
+    fn new(call: &Arguments, kind: Kind) -> Self {
         Self(Arc::new(Mutex::new(Plan {
             kind,
             repeat: Vec2::ONE,
             mesh: None,
+            recipe: call.spelled(),
         })))
     }
 
@@ -167,7 +172,7 @@ impl Shape {
     }
 
     /// The mesh of the shape.
-    fn mesh(&self, data: &mut Data) -> Result<MeshId, Mistake> {
+    pub(super) fn mesh(&self, data: &mut Data) -> Result<MeshId, Mistake> {
         let mut plan = self.lock();
         if let Some(mesh) = plan.mesh {
             return Ok(mesh);
@@ -182,7 +187,19 @@ impl Shape {
         });
         let mesh = data.add_mesh(mesh)?;
         plan.mesh = Some(mesh);
+        if let Some(recipe) = &plan.recipe {
+            data.recipes.meshes.insert(mesh, recipe.clone());
+        }
         Ok(mesh)
+    }
+}
+
+impl Plan {
+    /// Follows a call that changed the shape: what was drawn with it keeps its mesh, and what
+    /// comes gets a new one.
+    fn changed(&mut self, call: &Arguments) {
+        self.mesh = None;
+        self.recipe = then(self.recipe.take(), call);
     }
 }
 

@@ -21,8 +21,7 @@ fn setter(
                 plan.kind.name()
             )));
         }
-        // What was drawn with the shape keeps its mesh; what comes gets a new one.
-        plan.mesh = None;
+        plan.changed(a);
         drop(plan);
         Ok(shape)
     });
@@ -37,7 +36,7 @@ pub(super) fn register(api: &mut Api) {
             let times = [a.number_in(0, 1e-6, 1e6)?, a.number_in(1, 1e-6, 1e6)?];
             let mut plan = shape.lock();
             plan.repeat = Vec2::from(times.map(|times| times as f32));
-            plan.mesh = None;
+            plan.changed(a);
             drop(plan);
             Ok(shape)
         },

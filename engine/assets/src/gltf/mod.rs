@@ -1,0 +1,167 @@
+//! Models and scenes from glTF 2.0 files: `.gltf` with what it names, and `.glb`.
+//!
+//! What is carried: the nodes of the default scene with their places, triangles (lists, strips and
+//! fans) with positions, normals, tangents and the first texture coordinates, and
+//!
+//! | in the file | becomes |
+//! | --- | --- |
+//! | `baseColorFactor`, `baseColorTexture` | base colour, its factor times 1 − metallic: a metal scatters nothing |
+//! | `metallicFactor`, `roughnessFactor` | specular: 0.04 for what is no metal, the luminance of the base colour for metal, in between evenly; exponent 2/α² − 2 with α = roughness² (Karis 2013, "Specular BRDF reference"), within 1..1448 |
+//! | `metallicRoughnessTexture` | its mean, times the factors |
+//! | `normalTexture` | normal texture |
+//! | `emissiveFactor`, `KHR_materials_emissive_strength` | emissive, in W/(m² sr) |
+//! | `alphaMode` `MASK` | alpha cutoff |
+//! | `doubleSided` | seen from both sides |
+//! | `KHR_lights_punctual` | lights: candela and lux over 683 lm/W; a light without a range reaches to where it lays 0.001 W/m², 1000 m at most; half angles of a cone become full ones |
+//! | perspective cameras | cameras that are not active |
+//! | channels of translation, rotation and scale | rigid animation, all animations at once; `STEP`, `LINEAR` and `CUBICSPLINE` |
+//!
+//! What is not carried, each with a warning: skins, morph targets, transparency without a mask
+//! (drawn opaque), textures of emission and occlusion, vertex colours, second texture coordinates,
+//! texture transforms, the scale of normal textures, orthographic cameras, lines and points. A
+//! file that requires another extension is refused.
+//!
+//! Missing normals are those of the flat triangles, as the specification (3.7.2.1) asks. Missing
+//! tangents are computed. Colours of factors are linear in the file already.
+
+mod accessors;
+mod animation;
+mod buffers;
+mod materials;
+mod meshes;
+mod nodes;
+#[cfg(test)]
+mod tests;
+
+use glam::Vec3;
+use lightbench_world::{Camera, Light, MeshBounds, RigidAnimation, Transform};
+
+use crate::files::Files;
+use crate::obj::{Model, ModelError, Problem, Warning};
+use crate::{Mesh, Progress};
+
+/// A scene that was read, not yet part of a world.
+#[derive(Clone, Debug)]
+pub struct GltfScene {
+    /// Meshes with their materials, and the pictures. A mesh of several materials comes as one for
+    /// each, in the order of the file.
+    pub model: Model,
+    /// Parents before their children.
+    pub nodes: Vec<Node>,
+}
+
+/// One node of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Node {
+    /// Its name, or `node` and its number in the file.
+    pub name: String,
+    /// The place of its parent in the list of nodes.
+    pub parent: Option<usize>,
+    /// Where it stands in its parent's space.
+    pub transform: Transform,
+    /// Places in the list of the model's meshes.
+    pub meshes: std::ops::Range<usize>,
+    /// What shines from it.
+    pub light: Option<Light>,
+    /// What looks from it. Not active.
+    pub camera: Option<Camera>,
+    /// What moves it.
+    pub animation: Option<RigidAnimation>,
+}
+
+/// A file while it is read.
+struct Document {
+    /// The file as the user knows it.
+    path: String,
+    gltf: ::gltf::Document,
+    buffers: Vec<Vec<u8>>,
+    warnings: Vec<Warning>,
+}
+
+impl Document {
+    fn problem(&self, message: impl Into<String>) -> Problem {
+        Problem {
+            path: self.path.clone(),
+            line: None,
+            message: message.into(),
+        }
+    }
+
+    /// Warns once for each message.
+    fn warn(&mut self, message: impl Into<String>) {
+        let warning = self.problem(message);
+        if !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
+        }
+    }
+}
+
+/// Reads a scene with its materials and pictures.
+///
+/// # Errors
+/// A file that can't be read, that is no glTF, or that contradicts itself: with its path, what is
+/// wrong where, and the way out where there is one. What can be passed over becomes a warning of
+/// the model.
+pub fn load(files: &Files, path: &str, progress: &Progress) -> Result<GltfScene, ModelError> {
+    let shown = files.display(path);
+    progress.begin(format!("Reading {shown}"), 0.0)?;
+    let bytes = files.read(path)?;
+    let problem = |message: String| Problem {
+        path: shown.clone(),
+        line: None,
+        message,
+    };
+    if bytes.is_empty() {
+        return Err(problem("the file is empty; save or copy it again".to_owned()).into());
+    }
+    let ::gltf::Gltf { document, blob } = ::gltf::Gltf::from_slice(&bytes).map_err(|error| {
+        problem(format!(
+            "the file can't be understood as glTF 2.0 ({error})"
+        ))
+    })?;
+    drop(bytes);
+    let buffers = buffers::load(files, path, &document, blob).map_err(problem)?;
+    let mut document = Document {
+        path: shown,
+        gltf: document,
+        buffers,
+        warnings: Vec::new(),
+    };
+
+    progress.begin("Reading pictures", 0.3)?;
+    let (materials, textures) = materials::load(&mut document, files, path, progress)?;
+
+    progress.begin("Building meshes", 0.7)?;
+    let (meshes, ranges) = meshes::load(&mut document, progress)?;
+
+    progress.begin("Building nodes", 0.9)?;
+    let mut nodes = nodes::load(&mut document, &ranges)?;
+    animation::load(&mut document, &mut nodes)?;
+    progress.report(1.0)?;
+    Ok(GltfScene {
+        model: Model {
+            bounds: bounds(&meshes),
+            meshes,
+            materials,
+            textures,
+            made_uvs: false,
+            warnings: document.warnings,
+        },
+        nodes: nodes.into_iter().map(|(_, node)| node).collect(),
+    })
+}
+
+/// Around all meshes as they stand in the file, without their nodes' places.
+fn bounds(meshes: &[(Mesh, lightbench_world::MaterialId)]) -> MeshBounds {
+    let corners = meshes.iter().flat_map(|(mesh, _)| {
+        let bounds = mesh.bounds();
+        let (center, half) = (bounds.center, bounds.half_extents);
+        [center - half, center + half]
+    });
+    let positions: Vec<Vec3> = corners.collect();
+    let whole = Mesh {
+        positions,
+        ..Mesh::default()
+    };
+    whole.bounds()
+}

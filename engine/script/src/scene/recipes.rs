@@ -1,0 +1,63 @@
+//! How assets were made, in the words of scripts: what scene files keep of them.
+
+use std::collections::HashMap;
+
+use lightbench_assets::{Material, MeshId, TextureId};
+use lightbench_world::glam::Vec3;
+
+use crate::api::{Arguments, spell_call, spell_number, spell_text};
+
+/// The calls that made each mesh and each texture. Materials are their own numbers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Recipes {
+    pub(super) meshes: HashMap<MeshId, String>,
+    pub(super) textures: HashMap<TextureId, String>,
+}
+
+/// A recipe with one more call behind it.
+pub(super) fn then(recipe: Option<String>, call: &Arguments) -> Option<String> {
+    Some(format!("{}.{}", recipe?, call.spelled()?))
+}
+
+/// The calls that make a material. `texture` gives the name of a texture in the file.
+pub(super) fn material(
+    material: &Material,
+    texture: impl Fn(TextureId) -> Option<String>,
+) -> Option<String> {
+    let color = |color: Vec3| color.as_dvec3();
+    let number = |number: f32| spell_number(number.into());
+    let Material {
+        name,
+        base_color,
+        base_color_texture,
+        specular,
+        power,
+        emissive,
+        normal_texture,
+        alpha_cutoff,
+        two_sided,
+    } = material;
+    let mut recipe = format!(
+        "material({}).{}.specular({}).power({})",
+        spell_text(name),
+        spell_call("color", color(*base_color)),
+        number(*specular),
+        number(*power)
+    );
+    if *emissive != Vec3::ZERO {
+        recipe += &format!(".{}", spell_call("emissive", color(*emissive)));
+    }
+    for (call, id) in [("texture", base_color_texture), ("normals", normal_texture)] {
+        if let Some(id) = id {
+            let name = spell_text(&texture(*id)?);
+            recipe += &format!(".{call}(texture({name}))");
+        }
+    }
+    if let Some(cutoff) = alpha_cutoff {
+        recipe += &format!(".cutoff({})", number(*cutoff));
+    }
+    if *two_sided {
+        recipe += ".two_sided()";
+    }
+    Some(recipe)
+}
