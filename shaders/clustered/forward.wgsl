@@ -1,7 +1,7 @@
 // Clustered forward shading: each fragment sums the lights of its cluster.
 //
 // In:  a fragment; the lists of clusters. TILE and SLICES as in shaders/lib/clusters.wgsl.
-// Out: linear radiance.
+// Out: linear radiance, and opacity as alpha.
 // Follows Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading".
 #import lightbench::scene
 #import lightbench::geometry
@@ -27,5 +27,5 @@ fn fragment_main(
         let light = scene::lights[cluster_lights[i]];
         radiance += lighting::evaluate_light(light, fragment, to_viewer);
     }
-    return vec4f(radiance, 1.0);
+    return vec4f(radiance, fragment.opacity);
 }

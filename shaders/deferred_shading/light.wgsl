@@ -8,7 +8,12 @@
 #import lightbench::lighting
 #import lightbench::g_buffer
 
+#ifdef DEPTH_TARGET
+// A pass that writes stencil can't read the depth in the same texture, but a copy of it.
+@group(1) @binding(0) var depth: texture_2d<f32>;
+#else
 @group(1) @binding(0) var depth: texture_depth_2d;
+#endif
 @group(1) @binding(1) var g_albedo: texture_2d<f32>;
 @group(1) @binding(2) var g_normal: texture_2d<u32>;
 @group(1) @binding(3) var g_power: texture_2d<f32>;
@@ -19,7 +24,11 @@ fn fragment_main(
     @location(0) @interpolate(flat) light: u32,
 ) -> @location(0) vec4f {
     let texel = vec2i(pixel.xy);
+#ifdef DEPTH_TARGET
+    let texel_depth = textureLoad(depth, texel, 0).r;
+#else
     let texel_depth = textureLoad(depth, texel, 0);
+#endif
     if texel_depth == 0.0 {
         // The far plane: nothing was drawn here, so there is nothing to light.
         return vec4f(0.0);

@@ -36,6 +36,7 @@ fn unpack(position: vec3f, albedo: vec4f, normal: vec2u, power: f32) -> surface:
         albedo.a * albedo.a,
         exp2(10.5 * power),
         vec3f(0.0),
+        1.0,
     );
 }
 

@@ -52,7 +52,7 @@ struct Material {
     base_color_texture: u32,            // bucket << 16 | layer, or NO_TEXTURE
     normal_texture: u32,
     alpha_cutoff: f32,                  // fragments below are discarded in ALPHA_TEST variants
-    reserved: u32,
+    opacity: f32,                       // share of what lies behind that it hides
 }
 
 struct Light {

@@ -16,6 +16,7 @@ struct Surface {
     specular: f32,                      // specular reflectance
     power: f32,                         // Blinn-Phong exponent
     emissive: vec3f,                    // radiance
+    opacity: f32,                       // share of what lies behind that it hides; 1: opaque
 }
 
 // A unit vector, or +y where the length vanishes: degenerate triangles must not make NaN.
@@ -62,5 +63,7 @@ fn fragment_surface(in: geometry::VertexOutput, front_facing: bool) -> Surface {
         material.specular,
         material.power,
         material.emissive,
+        // A texture's alpha thins out only what is transparent as a whole.
+        select(material.opacity * base_color.a, 1.0, material.opacity >= 1.0),
     );
 }

@@ -1,7 +1,7 @@
 // Tiled forward shading, third pass: each fragment sums the lights of its tile.
 //
 // In:  a fragment; the lists of `cull.wgsl`. TILE and CAPACITY as there.
-// Out: linear radiance, and the material's opacity as alpha.
+// Out: linear radiance, and opacity as alpha.
 // Follows Harada, McKee and Yang 2012, "Forward+: Bringing Deferred Lighting to the Next Level".
 #import lightbench::scene
 #import lightbench::geometry
@@ -26,5 +26,5 @@ fn fragment_main(
         let light = scene::lights[tile_lists[list + i]];
         radiance += lighting::evaluate_light(light, fragment, to_viewer);
     }
-    return vec4f(radiance, 1.0);
+    return vec4f(radiance, fragment.opacity);
 }

@@ -1,7 +1,7 @@
 // World-space light indexing, fourth pass: each fragment sums the lights of its cell of the world.
 //
 // In:  a fragment; the lists of cells; the cell size.
-// Out: linear radiance.
+// Out: linear radiance, and opacity as alpha.
 // Follows the world-space light indexing of Just Cause 2 (Persson 2013, "Practical Clustered
 // Shading", history).
 #import lightbench::scene
@@ -37,5 +37,5 @@ fn fragment_main(
         let light = scene::lights[cell_lists[list + i]];
         radiance += lighting::evaluate_light(light, fragment, to_viewer);
     }
-    return vec4f(radiance, 1.0);
+    return vec4f(radiance, fragment.opacity);
 }

@@ -24,8 +24,9 @@ enum Surfaces {
 
 /// Each pipeline, what its surfaces are, and the settings under which no list overflows in the
 /// scenes of this file.
-const PIPELINES: [(&str, Surfaces, &[&str]); 8] = [
+const PIPELINES: [(&str, Surfaces, &[&str]); 9] = [
     ("forward_single_pass", Surfaces::Exact, &[]),
+    ("forward_multi_pass", Surfaces::Exact, &[]),
     ("tiled_forward", Surfaces::Exact, &["capacity=1024"]),
     ("clustered_forward", Surfaces::Exact, &[]),
     ("world_indexed_forward", Surfaces::Exact, &["capacity=1024"]),
@@ -180,6 +181,34 @@ fn on_hard_cases_with_portable_features_only() {
     }
 }
 
+/// Both stencil schemes where the camera or a plane of the view cuts a volume, and with more lights
+/// than there are marks.
+#[test]
+fn stencil_schemes_light_the_same_pixels() {
+    let cases = [
+        ("hard_cases", "case=camera_inside"),
+        ("hard_cases", "case=near_plane"),
+        ("hard_cases", "case=far_plane"),
+        ("hard_cases", "case=wide_spot"),
+        ("many_lights", "lights=600"),
+    ];
+    for (scene, case) in cases {
+        let mut studio = Studio::new(scene, &settings(&[case]));
+        let mut hdr = |pipeline: &str, texts: &[&str]| studio.hdr(pipeline, &settings(texts), SIZE);
+        let full = "accumulation=rgba32float";
+        let deferred = hdr("deferred_shading", &[full]);
+        for scheme in ["volume_stencil=two_pass", "volume_stencil=inverse"] {
+            let other = hdr("deferred_shading", &[full, scheme, "threshold=0"]);
+            let order = relative_difference(&deferred, &other);
+            assert!(order <= order_bound(600), "{case} {scheme}: {order}");
+        }
+        let forward = hdr("forward_single_pass", &[full]);
+        let masked = hdr("forward_multi_pass", &[full, "stencil_mask=on"]);
+        let order = relative_difference(&forward, &masked);
+        assert!(order <= order_bound(600), "{case} stencil_mask: {order}");
+    }
+}
+
 /// A pipeline that is not in the list above would go untested.
 #[test]
 fn every_shipped_pipeline_is_compared() {
@@ -207,6 +236,16 @@ fn options_that_only_change_the_cost_change_no_pixel() {
             &hdr("forward_single_pass", &texts),
             &format!("{texts:?}"),
         );
+    }
+    for texts in [
+        &["lights_at_once=1", "scissor=off"][..],
+        &["lights_at_once=1", "stencil_mask=on"],
+        &["lights_at_once=2"],
+        &["lights_at_once=4"],
+        &["lights_at_once=8", "scissor=off"],
+    ] {
+        let multi = hdr("forward_multi_pass", &[texts, &[full]].concat());
+        close(&forward, &multi, &format!("{texts:?}"));
     }
     for texts in [
         [full, "tile_size=8"],
@@ -237,11 +276,15 @@ fn options_that_only_change_the_cost_change_no_pixel() {
         close(&forward, &hdr("world_indexed_forward", &texts), &text);
     }
     let deferred = hdr("deferred_shading", &[full]);
-    close(
-        &deferred,
-        &hdr("deferred_shading", &[full, "light_volumes=off"]),
-        "light_volumes=off",
-    );
+    for texts in [
+        &["light_volumes=off"][..],
+        &["volume_stencil=two_pass", "threshold=0"],
+        &["volume_stencil=inverse", "threshold=0"],
+        &["volume_stencil=inverse", "threshold=0.3"],
+    ] {
+        let other = hdr("deferred_shading", &[texts, &[full]].concat());
+        close(&deferred, &other, &format!("{texts:?}"));
+    }
 }
 
 fn close(a: &TargetImage, b: &TargetImage, what: &str) {

@@ -25,11 +25,20 @@ pub struct Material {
     pub normal_texture: Option<TextureId>,
     /// Where set, points whose base colour's alpha is below it are not there.
     pub alpha_cutoff: Option<f32>,
+    /// The share of what lies behind that it hides, 0..1; below 1 it is drawn after all that is
+    /// opaque. Where [`Material::alpha_cutoff`] is not set, the base colour's alpha multiplies it
+    /// in materials whose opacity is below 1.
+    pub opacity: f32,
     /// Whether the back is seen too, with its normal turned to the viewer.
     pub two_sided: bool,
 }
 
 impl Material {
+    /// Whether it lets light through.
+    pub fn is_transparent(&self) -> bool {
+        self.opacity < 1.0
+    }
+
     /// The range that [`Material::power`] may have: what eight bits hold as
     /// 2^(10.5 x) in the G-buffers of the pipelines.
     pub const POWER_RANGE: std::ops::RangeInclusive<f32> = 1.0..=1448.0;
@@ -47,6 +56,7 @@ impl Default for Material {
             emissive: Vec3::ZERO,
             normal_texture: None,
             alpha_cutoff: None,
+            opacity: 1.0,
             two_sided: false,
         }
     }

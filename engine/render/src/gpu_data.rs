@@ -87,8 +87,8 @@ pub struct MaterialData {
     pub normal_texture: u32,
     /// Alpha below which fragments are discarded.
     pub alpha_cutoff: f32,
-    /// Fills the structure to 16 bytes.
-    pub reserved: u32,
+    /// The share of what lies behind that it hides.
+    pub opacity: f32,
 }
 
 /// One light; `Light` in WGSL.

@@ -16,10 +16,10 @@ use crate::targets::Targets;
 pub enum PassPipelines {
     /// The pass needs none: it clears, copies or resolves.
     None,
-    /// By [`crate::variant::Variant::index`].
-    Geometry(Vec<DrawPipeline>),
-    /// By case.
-    Lights(LightPipelines),
+    /// Meshes.
+    Geometry(GeometryPipelines),
+    /// Light volumes.
+    Lights(LightsPipelines),
     /// One triangle.
     Fullscreen(wgpu::RenderPipeline),
     /// A dispatch.
@@ -40,7 +40,16 @@ pub enum PassPipelines {
     },
 }
 
-/// The three ways in which a light's volume is drawn.
+/// How a `lights` pass draws.
+#[derive(Debug)]
+pub struct LightsPipelines {
+    /// For each array of lights; one where there are no arrays.
+    pub arrays: Vec<LightPipelines>,
+    /// With a stencil technique: what marks the pixels of a volume, and what wipes all marks.
+    pub stencil: Option<(DrawPipeline, DrawPipeline)>,
+}
+
+/// The ways in which a light's volume is drawn.
 #[derive(Debug)]
 pub struct LightPipelines {
     /// Back faces, lighting what is nearer: works with the camera inside.
@@ -48,6 +57,28 @@ pub struct LightPipelines {
     /// Front faces, lighting what is farther: works where the far plane cuts the volume.
     pub front: DrawPipeline,
     /// Every pixel: for lights without a volume, and where neither of the two works.
+    pub screen: DrawPipeline,
+    /// Pixels that are marked in stencil, or with the inverse scheme those that are not.
+    pub marked: Option<DrawPipeline>,
+}
+
+/// How a `geometry` pass draws.
+#[derive(Debug)]
+pub struct GeometryPipelines {
+    /// By [`crate::variant::Variant::index`].
+    pub variants: Vec<DrawPipeline>,
+    /// With stencil masks: what marks the pixels inside a light's volume.
+    pub mask: Option<MaskPipelines>,
+}
+
+/// Marks the pixels whose surface lies inside a volume, in two steps.
+#[derive(Debug)]
+pub struct MaskPipelines {
+    /// Back faces behind the scene mark.
+    pub back: DrawPipeline,
+    /// Front faces behind the scene take the mark away.
+    pub front: DrawPipeline,
+    /// The whole screen: marks all, or with the reference 0 wipes all marks.
     pub screen: DrawPipeline,
 }
 

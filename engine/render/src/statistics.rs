@@ -19,6 +19,8 @@ pub struct PassStatistics {
     pub dispatches: u32,
     /// Workgroups of those dispatches; `None` where the GPU decides.
     pub workgroups: Option<u64>,
+    /// Lights that no array of a `lights` pass had room for.
+    pub unplaced_lights: u32,
     /// Whether the pass was left out, since nobody uses what it writes.
     pub dropped: bool,
     /// Time to record the pass on the CPU, milliseconds.

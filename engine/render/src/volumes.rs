@@ -39,6 +39,23 @@ pub struct VolumeDraw {
     pub kind: VolumeKind,
     /// Which entries of the frame's volumes.
     pub volumes: std::ops::Range<u32>,
+    /// Which array of lights it belongs to; 0 without arrays.
+    pub array: u32,
+    /// Whether pixels inside are marked in stencil before; then it is one volume.
+    pub stencil: bool,
+}
+
+/// The volume of one light.
+#[derive(Clone, Copy, Debug)]
+pub struct Volume {
+    /// How it is drawn without stencil.
+    pub kind: VolumeKind,
+    /// For the GPU.
+    pub data: LightVolumeData,
+    /// Whether the near plane may cut its front faces, or the camera be inside.
+    pub crosses_near: bool,
+    /// Whether the far plane may cut its back faces.
+    pub crosses_far: bool,
 }
 
 /// The kind of ambient lights.
@@ -107,12 +124,7 @@ fn outer_angle(light: &LightData) -> f32 {
 }
 
 /// How a light's volume is drawn, or `None` if the view does not show it.
-pub fn volume(
-    light: &LightData,
-    index: u32,
-    view: &ViewVolume,
-    volumes: bool,
-) -> Option<(VolumeKind, LightVolumeData)> {
+pub fn volume(light: &LightData, index: u32, view: &ViewVolume, volumes: bool) -> Option<Volume> {
     let screen = VolumeKind {
         case: Case::Screen,
         shape: Shape::Sphere,
@@ -122,15 +134,21 @@ pub fn volume(
         light: index,
         reserved: [0; 3],
     };
+    let whole = Volume {
+        kind: screen,
+        data: data(&Affine3A::IDENTITY),
+        crosses_near: true,
+        crosses_far: true,
+    };
     if !is_bounded(light) {
-        return Some((screen, data(&Affine3A::IDENTITY)));
+        return Some(whole);
     }
     let p = light.position;
     if light.range <= 0.0 || !view.frustum.intersects_sphere(p.x, p.y, p.z, light.range) {
         return None;
     }
     if !volumes {
-        return Some((screen, data(&Affine3A::IDENTITY)));
+        return Some(whole);
     }
     let angle = outer_angle(light);
     let (shape, transform, bound) = if light.kind == SPOT && angle <= WIDEST_CONE {
@@ -157,7 +175,20 @@ pub fn volume(
         (true, false) => Case::Front,
         (true, true) => Case::Screen,
     };
-    Some((VolumeKind { case, shape }, data(&transform)))
+    Some(Volume {
+        kind: VolumeKind { case, shape },
+        data: data(&transform),
+        crosses_near,
+        crosses_far,
+    })
+}
+
+/// The angle under which a light's sphere is seen: 2 atan(r / d), radians.
+pub fn angular_diameter(light: &LightData, view: &ViewVolume) -> f32 {
+    if !is_bounded(light) {
+        return std::f32::consts::TAU;
+    }
+    2.0 * light.range.atan2((light.position - view.position).length())
 }
 
 /// Carries the unit cone to a spot light: −z along its direction.
@@ -178,14 +209,26 @@ pub fn coverage(light: &LightData, view: &ViewVolume) -> f64 {
     if !is_bounded(light) {
         return 1.0;
     }
+    let [left, top, right, bottom] = rectangle(light, view);
+    f64::from((right - left).max(0.0)) * f64::from((bottom - top).max(0.0))
+}
+
+/// The rectangle around a light's sphere, as shares of the picture from the upper left corner: left,
+/// top, right, bottom.
+pub fn rectangle(light: &LightData, view: &ViewVolume) -> [f32; 4] {
+    if !is_bounded(light) {
+        return [0.0, 0.0, 1.0, 1.0];
+    }
     let center = view.view.transform_point3(light.position);
-    let width = |x: f32, focal: f32| -> f64 {
-        let (low, high) = axis_bounds(x, center.z, light.range, view.near);
-        let low = (low * focal).clamp(-1.0, 1.0);
-        let high = (high * focal).clamp(-1.0, 1.0);
-        f64::from((high - low).max(0.0)) * 0.5
-    };
-    width(center.x, view.focal_x) * width(center.y, view.focal_y)
+    let share = |at: f32, focal: f32| (at * focal).clamp(-1.0, 1.0) * 0.5 + 0.5;
+    let (left, right) = axis_bounds(center.x, center.z, light.range, view.near);
+    let (low, high) = axis_bounds(center.y, center.z, light.range, view.near);
+    [
+        share(left, view.focal_x),
+        1.0 - share(high, view.focal_y),
+        share(right, view.focal_x),
+        1.0 - share(low, view.focal_y),
+    ]
 }
 
 /// The extent of a sphere along one axis of the image plane at distance 1. `x` and `z` are the

@@ -102,6 +102,11 @@ fn material(
         normal_texture,
         alpha_cutoff: (source.alpha_mode() == AlphaMode::Mask)
             .then(|| source.alpha_cutoff().unwrap_or(0.5).clamp(0.0, 1.0)),
+        opacity: if source.alpha_mode() == AlphaMode::Blend {
+            source.pbr_metallic_roughness().base_color_factor()[3].clamp(0.0, 1.0)
+        } else {
+            1.0
+        },
         two_sided: source.double_sided(),
     }
 }

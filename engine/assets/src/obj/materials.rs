@@ -62,7 +62,7 @@ impl Materials {
             // The latest of a name counts.
             match library.iter().rfind(|entry| entry.material.name == *name) {
                 Some(entry) => {
-                    let material = materials.convert(files, entry, *line, warnings);
+                    let material = materials.convert(files, entry, warnings);
                     materials.materials.push(material);
                     materials.numbers.push(materials.materials.len() as u32);
                 }
@@ -84,13 +84,7 @@ impl Materials {
         materials
     }
 
-    fn convert(
-        &mut self,
-        files: &Files,
-        entry: &Entry,
-        line: usize,
-        warnings: &mut Warnings,
-    ) -> Material {
+    fn convert(&mut self, files: &Files, entry: &Entry, warnings: &mut Warnings) -> Material {
         let source = &entry.material;
         let default = Material::default();
         let color =
@@ -150,12 +144,8 @@ impl Materials {
         if let Some((Some(path), bump)) = normal.map(|map| look_up(map)) {
             material.normal_texture = Some(self.request(path, Kind::Normal { bump }));
         }
-        if source.dissolve.is_some_and(|d| d < 1.0) && material.alpha_cutoff.is_none() {
-            let message = format!(
-                "the material `{}` is transparent; without a mask (map_d) it is drawn opaque",
-                source.name
-            );
-            warnings.add(line, &message);
+        if material.alpha_cutoff.is_none() {
+            material.opacity = source.dissolve.unwrap_or(1.0).clamp(0.0, 1.0);
         }
         material
     }

@@ -2,10 +2,10 @@
 
 use lightbench_assets::files::Files;
 
-use super::state::State;
-use super::{Compiler, GEOMETRY_VERTEX, PassLayout};
+use super::state::{State, marking, stencil_mark, stencil_test};
+use super::{Compiler, FULLSCREEN_VERTEX, GEOMETRY_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{Faces, Geometry, PassDesc, PipelineDesc};
-use crate::pipeline::PassPipelines;
+use crate::pipeline::{GeometryPipelines, MaskPipelines, PassPipelines};
 use crate::problem::Problem;
 use crate::variant::Variant;
 
@@ -44,8 +44,62 @@ impl Compiler {
                 },
                 ..State::new(GEOMETRY_VERTEX, pass.depth.as_ref())
             };
+            let state = match geometry.repeat {
+                // Only what the light's volume marked is drawn.
+                Some(repeat) if repeat.stencil => State {
+                    stencil: stencil_test(wgpu::CompareFunction::Equal),
+                    ..state
+                },
+                _ => state,
+            };
             variants.push(self.build(files, desc, pass, fragment, layout, &state)?);
         }
-        Ok(PassPipelines::Geometry(variants))
+        let mask = match geometry.repeat {
+            Some(repeat) if repeat.stencil => Some(self.mask(files, desc, pass, layout)?),
+            _ => None,
+        };
+        Ok(PassPipelines::Geometry(GeometryPipelines {
+            variants,
+            mask,
+        }))
+    }
+
+    /// What marks the pixels whose surface lies inside a light's volume.
+    fn mask(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        layout: &PassLayout,
+    ) -> Result<MaskPipelines, Problem> {
+        use wgpu::{CompareFunction, Face, StencilOperation};
+        // Depth is reversed, so "less" is farther.
+        let mut faces = |cull, depth_compare, operation| {
+            let state = State {
+                stencil: stencil_mark(StencilOperation::Keep, operation),
+                ..marking(cull, depth_compare, LIGHT_VERTEX)
+            };
+            self.marker(files, desc, pass, layout, &state)
+        };
+        let back = faces(
+            Some(Face::Front),
+            CompareFunction::LessEqual,
+            StencilOperation::Replace,
+        )?;
+        let front = faces(
+            Some(Face::Back),
+            CompareFunction::Less,
+            StencilOperation::Zero,
+        )?;
+        let screen = State {
+            stencil: stencil_mark(StencilOperation::Keep, StencilOperation::Replace),
+            ..marking(None, CompareFunction::Always, FULLSCREEN_VERTEX)
+        };
+        let screen = self.marker(files, desc, pass, layout, &screen)?;
+        Ok(MaskPipelines {
+            back,
+            front,
+            screen,
+        })
     }
 }

@@ -67,6 +67,53 @@ impl State {
     }
 }
 
+/// Writes no colour and no depth.
+pub(super) fn marking(
+    cull: Option<wgpu::Face>,
+    depth_compare: wgpu::CompareFunction,
+    vertex_path: &'static str,
+) -> State {
+    State {
+        own_vertex: false,
+        cull,
+        depth_compare,
+        channels: Channels::Nothing,
+        ..State::new(vertex_path, None)
+    }
+}
+
+/// Compares with the reference, and changes nothing.
+pub(super) fn stencil_test(compare: wgpu::CompareFunction) -> wgpu::StencilState {
+    let face = wgpu::StencilFaceState {
+        compare,
+        ..wgpu::StencilFaceState::IGNORE
+    };
+    both(face)
+}
+
+/// Tests nothing, and changes the value where the depth test fails or passes.
+pub(super) fn stencil_mark(
+    depth_fail: wgpu::StencilOperation,
+    pass: wgpu::StencilOperation,
+) -> wgpu::StencilState {
+    both(wgpu::StencilFaceState {
+        compare: wgpu::CompareFunction::Always,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: depth_fail,
+        pass_op: pass,
+    })
+}
+
+/// The same for front and back faces, on all bits.
+fn both(face: wgpu::StencilFaceState) -> wgpu::StencilState {
+    wgpu::StencilState {
+        front: face,
+        back: face,
+        read_mask: 0xff,
+        write_mask: 0xff,
+    }
+}
+
 /// The vertex buffers that a vertex stage needs.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum VertexStreams {

@@ -3,16 +3,21 @@
 //! Flat arrays in the layout that the GPU reads, filled again each frame without allocation once
 //! they have their size. Passes see the frame and never the world.
 
+mod lights;
+mod object_lights;
+mod objects;
+
 use glam::{Mat4, Vec3};
 use lightbench_assets::Assets;
 use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
-use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
+use lightbench_world::{MeshId, World, WorldBounds};
 
 use crate::description::{DrawList, DrawOrder, Lights, ObjectLights, PassDesc, PassKind, Repeat};
 use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
 use crate::variant::Variant;
 use crate::view::View;
 use crate::volumes::{self, VolumeDraw, VolumeKind};
+use objects::Objects;
 
 /// The view as the choice of light volumes needs it.
 #[derive(Clone, Debug)]
@@ -35,6 +40,13 @@ pub struct ViewVolume {
     pub focal_x: f32,
     /// Focal length in half picture heights.
     pub focal_y: f32,
+}
+
+impl ViewVolume {
+    /// Full vertical angle of view, radians.
+    pub fn fov_y(&self) -> f32 {
+        2.0 * (1.0 / self.focal_y).atan()
+    }
 }
 
 /// One instanced draw call.
@@ -67,9 +79,14 @@ pub struct Frame {
     pub visible_objects: u32,
     /// Lights that the camera sees.
     pub visible_lights: u32,
+    /// Rows of the objects that the camera sees.
     visible: Vec<u32>,
-    order: Vec<(Variant, MeshId, u32)>,
-    kinds: Vec<(VolumeKind, LightVolumeData)>,
+    order: Vec<objects::Entry>,
+    kinds: Vec<Chosen>,
+    /// Where the lists of all lights and of ambient ones begin and how long they are, once made.
+    shared_lights: [Option<(u32, u32)>; 2],
+    /// For each array of lights, the spheres of those in it.
+    arrays: Vec<Vec<(Vec3, f32)>>,
 }
 
 /// What a `geometry` pass draws.
@@ -77,15 +94,40 @@ pub struct Frame {
 pub struct ObjectList {
     /// Instanced draw calls.
     pub draws: Vec<MeshDraw>,
+    /// Once for each group of lights, in their order; a list that is not repeated has one.
+    pub steps: Vec<Step>,
+}
+
+/// What a `geometry` pass draws for one group of lights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Which of the list's draw calls.
+    pub draws: std::ops::Range<usize>,
+    /// The rectangle that the group can reach, as shares of the picture from the upper left corner:
+    /// left, top, right, bottom.
+    pub scissor: Option<[f32; 4]>,
+    /// The volume to mark in stencil before.
+    pub mark: Option<VolumeDraw>,
 }
 
 /// What a `lights` pass draws.
 #[derive(Clone, Debug, Default)]
 pub struct LightList {
-    /// Instanced draw calls.
+    /// Draw calls: instanced, or one a light where stencil is marked.
     pub draws: Vec<VolumeDraw>,
     /// Sum over the drawn lights of the share of the picture that each covers at most.
     pub coverage: f64,
+    /// Lights for which no array had room.
+    pub unplaced: u32,
+}
+
+/// A light and how it is drawn.
+#[derive(Clone, Copy, Debug)]
+struct Chosen {
+    array: u32,
+    stencil: bool,
+    kind: VolumeKind,
+    data: LightVolumeData,
 }
 
 /// What tells one list of objects from another.
@@ -157,10 +199,18 @@ impl Frame {
         self.lists
             .resize_with(request.lists.len(), Default::default);
         self.find_visible(world, &volume);
-        for (index, key) in request.lists.iter().enumerate() {
-            self.objects(index, key, world, assets, instances, lights);
-        }
+        self.shared_lights = [None; 2];
         self.volumes.clear();
+        let objects = Objects {
+            world,
+            assets,
+            instances,
+            lights,
+            view: &volume,
+        };
+        for (index, key) in request.lists.iter().enumerate() {
+            self.objects(index, key, &objects);
+        }
         self.light_lists
             .resize_with(request.light_lists.len(), Default::default);
         for (index, key) in request.light_lists.iter().enumerate() {
@@ -227,126 +277,7 @@ impl Frame {
             radius: b.radius,
         };
         cull_spheres(&volume.frustum, spheres, &mut self.visible);
-    }
-
-    /// Sorts by pipeline variant and mesh, and groups into instanced draws.
-    fn objects(
-        &mut self,
-        index: usize,
-        key: &ListKey,
-        world: &World,
-        assets: &Assets,
-        instances: &[InstanceData],
-        lights: &[LightData],
-    ) {
-        let renderers = world.columns::<MeshRenderer>();
-        let r = renderers.slices();
-        self.order.clear();
-        for &row in &self.visible {
-            let index = row as usize;
-            if !r.visible[index] {
-                continue;
-            }
-            let (two_sided, alpha_test) = material_traits(assets, r.material[index]);
-            let variant = Variant::new(two_sided, alpha_test, is_mirrored(&instances[index]));
-            self.order.push((variant, r.mesh[index], row));
-        }
-        self.order.sort_unstable();
-
-        let first = self.drawn.len();
-        let draws = &mut self.lists[index].draws;
-        draws.clear();
-        for &(variant, mesh, row) in &self.order {
-            let at = self.drawn.len() as u32;
-            self.drawn.push(DrawnObject {
-                instance: row,
-                first_light: 0,
-                light_count: 0,
-                reserved: 0,
-            });
-            match draws.last_mut() {
-                Some(draw) if draw.variant == variant && draw.mesh == mesh => {
-                    draw.objects.end = at + 1
-                }
-                _ => draws.push(MeshDraw {
-                    variant,
-                    mesh,
-                    objects: at..at + 1,
-                }),
-            }
-        }
-        self.visible_objects = self.drawn.len() as u32;
-        self.light_lists_of(world, lights, first, key);
-    }
-
-    /// Gives each object from `first` on its list of lights, in the order of light indices.
-    fn light_lists_of(&mut self, world: &World, lights: &[LightData], first: usize, key: &ListKey) {
-        let start = self.object_lights.len() as u32;
-        if key.lights != ObjectLights::Gathered {
-            self.object_lights.extend(0..lights.len() as u32);
-            for object in &mut self.drawn[first..] {
-                object.first_light = start;
-                object.light_count = lights.len() as u32;
-            }
-            return;
-        }
-        let bounds = world.columns::<WorldBounds>();
-        let b = bounds.slices();
-        for object in &mut self.drawn[first..] {
-            let row = object.instance as usize;
-            let center = Vec3::new(b.x[row], b.y[row], b.z[row]);
-            let half = Vec3::new(b.half_x[row], b.half_y[row], b.half_z[row]);
-            object.first_light = self.object_lights.len() as u32;
-            for (index, light) in lights.iter().enumerate() {
-                // Distance from the light to the box, by clamping (Arvo 1990, Graphics Gems).
-                let outside = ((light.position - center).abs() - half).max(Vec3::ZERO);
-                if !volumes::is_bounded(light)
-                    || outside.length_squared() < light.range * light.range
-                {
-                    self.object_lights.push(index as u32);
-                }
-            }
-            object.light_count = self.object_lights.len() as u32 - object.first_light;
-        }
-    }
-
-    /// Chooses how each light is drawn, and groups equal choices into instanced draws.
-    fn light_volumes(
-        &mut self,
-        index: usize,
-        key: &Lights,
-        lights: &[LightData],
-        view: &ViewVolume,
-    ) {
-        self.kinds.clear();
-        let list = &mut self.light_lists[index];
-        list.coverage = 0.0;
-        for (index, light) in lights.iter().enumerate() {
-            if let Some(found) = volumes::volume(light, index as u32, view, key.volumes) {
-                list.coverage += if key.volumes {
-                    volumes::coverage(light, view)
-                } else {
-                    1.0
-                };
-                self.kinds.push(found);
-            }
-        }
-        self.visible_lights = self.kinds.len() as u32;
-        // Equal kinds stay in the order of light indices, so that sums do too.
-        self.kinds
-            .sort_unstable_by_key(|(kind, data)| (*kind, data.light));
-        list.draws.clear();
-        for (kind, data) in &self.kinds {
-            let at = self.volumes.len() as u32;
-            self.volumes.push(*data);
-            match list.draws.last_mut() {
-                Some(draw) if draw.kind == *kind => draw.volumes.end = at + 1,
-                _ => list.draws.push(VolumeDraw {
-                    kind: *kind,
-                    volumes: at..at + 1,
-                }),
-            }
-        }
+        self.visible_objects = 0;
     }
 }
 
@@ -354,18 +285,4 @@ impl Frame {
 fn sky(lights: &[LightData]) -> Vec3 {
     let ambient = lights.iter().filter(|light| light.kind == volumes::AMBIENT);
     ambient.map(|light| light.intensity).sum()
-}
-
-fn material_traits(assets: &Assets, id: MaterialId) -> (bool, bool) {
-    assets.material(id).map_or((false, false), |material| {
-        (material.two_sided, material.alpha_cutoff.is_some())
-    })
-}
-
-/// Whether the world matrix turns the winding of triangles round.
-fn is_mirrored(instance: &InstanceData) -> bool {
-    let [x, y, z] = instance
-        .world_rows
-        .map(|row| Vec3::new(row[0], row[1], row[2]));
-    x.dot(y.cross(z)) < 0.0
 }

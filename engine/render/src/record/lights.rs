@@ -1,42 +1,89 @@
 //! Drawing light volumes.
 
 use super::raster::Work;
-use crate::pipeline::LightPipelines;
+use crate::compile::DrawPipeline;
+use crate::pipeline::LightsPipelines;
 use crate::statistics::PassStatistics;
-use crate::volumes::Case;
+use crate::volumes::{Case, VolumeDraw};
+
+/// Marks that the eight bits of stencil tell apart; 0 is "not marked".
+pub(super) const MARKS: u32 = 255;
 
 impl Work<'_> {
     pub(super) fn lights(
         &self,
-        pipelines: &LightPipelines,
+        pipelines: &LightsPipelines,
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
     ) {
-        let meshes = self.recording.meshes;
         let lists = &self.recording.frame.light_lists;
         let Some(list) = self.pass.list.and_then(|list| lists.get(list)) else {
             return;
         };
+        cost.unplaced_lights = list.unplaced;
+        let mut marked = 0;
         for run in &list.draws {
-            let pipeline = match run.kind.case {
-                Case::Back => &pipelines.back,
-                Case::Front => &pipelines.front,
-                Case::Screen => &pipelines.screen,
+            let Some(array) = pipelines.arrays.get(run.array as usize) else {
+                continue;
             };
-            render_pass.set_pipeline(&pipeline.pipeline);
-            if run.kind.case == Case::Screen {
-                render_pass.draw(0..3, run.volumes.clone());
-                cost.count(1, &run.volumes);
-            } else {
-                let shape = meshes.shape(run.kind.shape);
-                meshes.bind(render_pass, pipeline.attributes);
-                render_pass.draw_indexed(
-                    shape.indices.clone(),
-                    shape.base_vertex,
-                    run.volumes.clone(),
-                );
-                cost.count(shape.indices.len() / 3, &run.volumes);
+            if let (true, Some(shade), Some((mark, wipe))) =
+                (run.stencil, &array.marked, &pipelines.stencil)
+            {
+                // Each light has a mark of its own; when all are used up, they are wiped away.
+                if marked > 0 && marked % MARKS == 0 {
+                    self.screen(wipe, 0, render_pass, cost);
+                }
+                render_pass.set_stencil_reference(1 + marked % MARKS);
+                marked += 1;
+                self.volume(mark, run, render_pass, cost);
+                self.volume(shade, run, render_pass, cost);
+                continue;
             }
+            let pipeline = match run.kind.case {
+                Case::Back => &array.back,
+                Case::Front => &array.front,
+                Case::Screen => &array.screen,
+            };
+            self.volume(pipeline, run, render_pass, cost);
         }
+    }
+
+    /// Draws volumes, or the whole screen for each.
+    pub(super) fn volume(
+        &self,
+        pipeline: &DrawPipeline,
+        run: &VolumeDraw,
+        render_pass: &mut wgpu::RenderPass<'_>,
+        cost: &mut PassStatistics,
+    ) {
+        render_pass.set_pipeline(&pipeline.pipeline);
+        if run.kind.case == Case::Screen {
+            render_pass.draw(0..3, run.volumes.clone());
+            cost.count(1, &run.volumes);
+            return;
+        }
+        let meshes = self.recording.meshes;
+        let shape = meshes.shape(run.kind.shape);
+        meshes.bind(render_pass, pipeline.attributes);
+        render_pass.draw_indexed(
+            shape.indices.clone(),
+            shape.base_vertex,
+            run.volumes.clone(),
+        );
+        cost.count(shape.indices.len() / 3, &run.volumes);
+    }
+
+    /// Draws one triangle over the whole target, with a stencil reference.
+    pub(super) fn screen(
+        &self,
+        pipeline: &DrawPipeline,
+        reference: u32,
+        render_pass: &mut wgpu::RenderPass<'_>,
+        cost: &mut PassStatistics,
+    ) {
+        render_pass.set_pipeline(&pipeline.pipeline);
+        render_pass.set_stencil_reference(reference);
+        render_pass.draw(0..3, 0..1);
+        cost.count(1, &(0..1));
     }
 }

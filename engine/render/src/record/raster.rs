@@ -26,7 +26,7 @@ impl Work<'_> {
         cost: &mut PassStatistics,
     ) {
         self.begin(encoder, |render_pass| match pipelines {
-            PassPipelines::Geometry(variants) => self.geometry(variants, render_pass, cost),
+            PassPipelines::Geometry(pipelines) => self.geometry(pipelines, render_pass, cost),
             PassPipelines::Lights(pipelines) => self.lights(pipelines, render_pass, cost),
             PassPipelines::Fullscreen(pipeline) => {
                 render_pass.set_pipeline(pipeline);
@@ -72,6 +72,18 @@ impl Work<'_> {
         self.bind(&mut render_pass);
         draw(&mut render_pass);
         self.queries.end_statistics(self.index, &mut render_pass);
+    }
+
+    /// Width and height of what the pass draws to.
+    pub(super) fn attachment_size(&self) -> (u32, u32) {
+        let colors = self.desc.colors.iter();
+        let mut named = colors
+            .map(|color| (&color.target, color.slice.mip))
+            .chain(self.desc.depth.iter().map(|d| (&d.target, d.slice.mip)));
+        named
+            .next()
+            .and_then(|(name, mip)| Some(self.targets.get(name)?.mip_size(mip)))
+            .unwrap_or((1, 1))
     }
 
     fn depth_attachment(&self) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {

@@ -111,7 +111,7 @@ impl Scene {
                     base_color_texture: slot(material.base_color_texture),
                     normal_texture: slot(material.normal_texture),
                     alpha_cutoff: material.alpha_cutoff.unwrap_or(0.0),
-                    reserved: 0,
+                    opacity: material.opacity,
                 }
             }));
         self.assets_revision = Some(assets.revision());

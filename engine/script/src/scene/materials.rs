@@ -107,6 +107,17 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
             Ok(())
         },
     );
+    method(
+        api,
+        stage,
+        "opacity(share)",
+        "The share of what lies behind that it hides, 0 to 1. Below 1 it is drawn after all that is \
+         opaque.",
+        |_, surface, _, a| {
+            surface.opacity = a.number_in(0, 0.0, 1.0)? as f32;
+            Ok(())
+        },
+    );
     for form in ["emissive(red, green, blue)", "emissive(color)"] {
         method(
             api,

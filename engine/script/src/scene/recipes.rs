@@ -35,6 +35,7 @@ pub(super) fn material(
         emissive,
         normal_texture,
         alpha_cutoff,
+        opacity,
         two_sided,
     } = material;
     let mut recipe = format!(
@@ -55,6 +56,9 @@ pub(super) fn material(
     }
     if let Some(cutoff) = alpha_cutoff {
         recipe += &format!(".cutoff({})", number(*cutoff));
+    }
+    if *opacity < 1.0 {
+        recipe += &format!(".opacity({})", number(*opacity));
     }
     if *two_sided {
         recipe += ".two_sided()";

@@ -10,28 +10,26 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "shader(path)",
-        "Names the WGSL file, from the project's folder, as in `shaders/output.wgsl`. In a derived \
-         pipeline it takes the place of the one before.",
+        "Names the WGSL file, from the project's folder, as in `shaders/output.wgsl`.",
         |open, arguments| {
             let path = arguments.text(0)?;
-            if let Some(first) = &open.pass.shader
-                && first.at.file == open.at.file
-            {
+            if let Some(first) = &open.pass.shader {
                 return Err(Mistake::new(format!(
                     "the pass has a shader already, `{}`",
                     first.path
                 )));
             }
-            if !path.ends_with(".wgsl") {
-                return Err(Mistake::new(format!("`{path}` is no shader"))
-                    .with_hint("shaders are files that end in `.wgsl`"));
-            }
-            open.pass.shader = Some(ShaderDesc {
-                path,
-                at: open.at,
-                defines: Vec::new(),
-            });
-            Ok(())
+            set(open, path)
+        },
+    );
+    method(
+        api,
+        "replace_shader(path)",
+        "Takes another WGSL file in place of the one that was named, without its defines: for \
+         passes of parts and of derived pipelines.",
+        |open, arguments| {
+            let path = arguments.text(0)?;
+            set(open, path)
         },
     );
     method(
@@ -55,6 +53,19 @@ pub(super) fn register(api: &mut Api) {
             define(open, Define { name, value })
         },
     );
+}
+
+fn set(open: Open, path: String) -> Result<(), Mistake> {
+    if !path.ends_with(".wgsl") {
+        return Err(Mistake::new(format!("`{path}` is no shader"))
+            .with_hint("shaders are files that end in `.wgsl`"));
+    }
+    open.pass.shader = Some(ShaderDesc {
+        path,
+        at: open.at,
+        defines: Vec::new(),
+    });
+    Ok(())
 }
 
 fn define(open: Open, define: Define) -> Result<(), Mistake> {
