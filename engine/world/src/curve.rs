@@ -84,11 +84,16 @@ impl Interpolate for Quat {
 pub struct Curve<T> {
     times: Vec<f32>,
     values: Vec<T>,
-    /// Change of the value for each second, just before and just after each key. Empty unless
-    /// the curve is cubic.
-    in_tangents: Vec<T>,
-    out_tangents: Vec<T>,
+    /// Absent unless the curve is cubic, and elsewhere, because few curves are.
+    tangents: Option<Box<Tangents<T>>>,
     interpolation: Interpolation,
+}
+
+/// Change of the value for each second, just before and just after each key.
+#[derive(Clone, Debug, PartialEq)]
+struct Tangents<T> {
+    before: Vec<T>,
+    after: Vec<T>,
 }
 
 impl<T> Default for Curve<T> {
@@ -96,8 +101,7 @@ impl<T> Default for Curve<T> {
         Self {
             times: Vec::new(),
             values: Vec::new(),
-            in_tangents: Vec::new(),
-            out_tangents: Vec::new(),
+            tangents: None,
             interpolation: Interpolation::Linear,
         }
     }
@@ -164,7 +168,7 @@ impl<T: Interpolate> Curve<T> {
     fn checked(
         times: Vec<f32>,
         values: Vec<T>,
-        [in_tangents, out_tangents]: [Vec<T>; 2],
+        [before, after]: [Vec<T>; 2],
         interpolation: Interpolation,
     ) -> Result<Self, String> {
         if times.len() != values.len() {
@@ -190,7 +194,7 @@ impl<T: Interpolate> Curve<T> {
         } else {
             0
         };
-        for (name, tangents) in [("in", &in_tangents), ("out", &out_tangents)] {
+        for (name, tangents) in [("in", &before), ("out", &after)] {
             if tangents.len() != wanted {
                 return Err(format!(
                     "a {} curve of {} times needs {wanted} {name} tangents and has {}",
@@ -200,11 +204,11 @@ impl<T: Interpolate> Curve<T> {
                 ));
             }
         }
+        let cubic = interpolation == Interpolation::Cubic;
         Ok(Self {
             times,
             values,
-            in_tangents,
-            out_tangents,
+            tangents: cubic.then(|| Box::new(Tangents { before, after })),
             interpolation,
         })
     }
@@ -243,19 +247,19 @@ impl<T: Interpolate> Curve<T> {
         };
         let length = self.times[after] - self.times[before];
         let t = (time - self.times[before]) / length;
-        Some(match self.interpolation {
-            Interpolation::Step => value.clone(),
-            Interpolation::Linear => value.interpolate(next, t),
-            Interpolation::Cubic => {
+        Some(match (&self.tangents, self.interpolation) {
+            (Some(tangents), _) => {
                 let [a, b, c, d] = hermite(t);
                 T::weighted_sum(&[
                     (a, value),
-                    (b * length, &self.out_tangents[before]),
+                    (b * length, &tangents.after[before]),
                     (c, next),
-                    (d * length, &self.in_tangents[after]),
+                    (d * length, &tangents.before[after]),
                 ])
                 .settled()
             }
+            (None, Interpolation::Step) => value.clone(),
+            (None, _) => value.interpolate(next, t),
         })
     }
 }
@@ -280,9 +284,9 @@ impl<T: Interpolate> FieldType for Curve<T> {
             ("times".to_owned(), self.times.to_value()),
             ("values".to_owned(), self.values.to_value()),
         ];
-        if self.interpolation == Interpolation::Cubic {
-            entries.push(("in_tangents".to_owned(), self.in_tangents.to_value()));
-            entries.push(("out_tangents".to_owned(), self.out_tangents.to_value()));
+        if let Some(tangents) = &self.tangents {
+            entries.push(("in_tangents".to_owned(), tangents.before.to_value()));
+            entries.push(("out_tangents".to_owned(), tangents.after.to_value()));
         }
         Value::Map(entries)
     }
@@ -291,13 +295,14 @@ impl<T: Interpolate> FieldType for Curve<T> {
             return Err(mismatch("a curve", value));
         };
         let mut curve = Self::default();
+        let mut tangents = [Vec::new(), Vec::new()];
         for (name, value) in entries {
             match name.as_str() {
                 "interpolation" => curve.interpolation = FieldType::from_value(value)?,
                 "times" => curve.times = FieldType::from_value(value)?,
                 "values" => curve.values = FieldType::from_value(value)?,
-                "in_tangents" => curve.in_tangents = FieldType::from_value(value)?,
-                "out_tangents" => curve.out_tangents = FieldType::from_value(value)?,
+                "in_tangents" => tangents[0] = FieldType::from_value(value)?,
+                "out_tangents" => tangents[1] = FieldType::from_value(value)?,
                 other => {
                     return Err(format!(
                         "a curve has interpolation, times, values, in_tangents and out_tangents, \
@@ -306,13 +311,13 @@ impl<T: Interpolate> FieldType for Curve<T> {
                 }
             }
         }
-        let tangents = [curve.in_tangents, curve.out_tangents];
         Self::checked(curve.times, curve.values, tangents, curve.interpolation)
     }
     fn heap_bytes(&self) -> usize {
-        let columns = [&self.values, &self.in_tangents, &self.out_tangents];
-        let values: usize = columns.into_iter().map(FieldType::heap_bytes).sum();
-        self.times.heap_bytes() + values
+        let tangents = self.tangents.as_ref().map_or(0, |tangents| {
+            size_of::<Tangents<T>>() + tangents.before.heap_bytes() + tangents.after.heap_bytes()
+        });
+        self.times.heap_bytes() + self.values.heap_bytes() + tangents
     }
 }
 

@@ -114,11 +114,12 @@ pub fn load(files: &Files, path: &str, progress: &Progress) -> Result<GltfScene,
     if bytes.is_empty() {
         return Err(problem("the file is empty; save or copy it again".to_owned()).into());
     }
-    let ::gltf::Gltf { document, blob } = ::gltf::Gltf::from_slice(&bytes).map_err(|error| {
+    let parsed = parse(&bytes).map_err(|error| {
         problem(format!(
             "the file can't be understood as glTF 2.0 ({error})"
         ))
-    })?;
+    });
+    let (document, blob) = parsed?;
     drop(bytes);
     let buffers = buffers::load(files, path, &document, blob).map_err(problem)?;
     let mut document = Document {
@@ -149,6 +150,23 @@ pub fn load(files: &Files, path: &str, progress: &Progress) -> Result<GltfScene,
         },
         nodes: nodes.into_iter().map(|(_, node)| node).collect(),
     })
+}
+
+/// The text and the binary part of a file, whose numbers of items all exist.
+fn parse(bytes: &[u8]) -> Result<(::gltf::Document, Option<Vec<u8>>), String> {
+    let gltf = ::gltf::Gltf::from_slice_without_validation(bytes);
+    let ::gltf::Gltf { document, blob } = gltf.map_err(|error| error.to_string())?;
+    // The crate's own check looks up positions before it has checked their number.
+    let root = document.as_json();
+    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        for accessor in primitive.attributes.values() {
+            if accessor.value() >= root.accessors.len() {
+                return Err(format!("there is no accessor {}", accessor.value()));
+            }
+        }
+    }
+    let document = ::gltf::Document::from_json(document.into_json());
+    Ok((document.map_err(|error| error.to_string())?, blob))
 }
 
 /// Around all meshes as they stand in the file, without their nodes' places.

@@ -463,7 +463,7 @@ fn what_contradicts_itself_is_refused_with_its_path() {
             embedded(&nodes(r#"{"rotation": [0, 0, 0, 0]}"#)),
             "the place of node 0",
         ),
-        (light(r#"{"type": "spot"}"#), "light 0"),
+        (light(r#"{"type": "spot"}"#), "lights[0].spot"),
         (light(r#"{"type": "point", "intensity": -1}"#), "light 0"),
         (
             embedded(", \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]"),

@@ -122,6 +122,8 @@ pub fn load_scene_within(
         .engine
         .register_static_module(SCRIPT_MODULE, module.into());
     scene.finish()?;
+    // What is animated stands where it is at the beginning.
+    scene.run_systems(0.0, 0.0);
     Ok(scene)
 }
 
@@ -258,7 +260,6 @@ impl Scene {
             .update
             .is_some()
             .then(|| SystemTime::of("script", || ()).0);
-        self.run_systems(0.0, 0.0);
         Ok(())
     }
 

@@ -72,7 +72,7 @@ fn curves(api: &mut Api, stage: &Stage) {
             "Moves the entity from point to point: `keys` are `[seconds, point]`. `mode` is \
              `linear` unless told, `step` or `smooth`.",
             |data, entity, a| {
-                let curve = curve(a, |a, key| point(a, key))?;
+                let curve = curve(a, point)?;
                 change(data, entity, |animation: &mut RigidAnimation| {
                     animation.translation = curve;
                 })

@@ -95,6 +95,8 @@ pub(super) fn load(
     stage.lock().world = world;
     let mut scene = Scene::new(path.to_owned(), host, stage, None);
     scene.finish()?;
+    // The world stays as the file has it, bit for bit, until time passes.
+    scene.refresh();
     Ok(scene)
 }
 

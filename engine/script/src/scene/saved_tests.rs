@@ -190,3 +190,73 @@ fn what_nobody_can_make_again_is_refused() {
     let error = scene.to_text().unwrap_err().to_string();
     assert!(error.contains("the mesh `x` can't be saved"), "{error}");
 }
+
+/// A carrier with two cards, one of which swings, and a lamp; all in one text.
+const GLTF: &str = r#"{"asset": {"version": "2.0"},
+    "buffers": [{"byteLength": 88, "uri": "cards.bin"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 52}],
+    "accessors": [
+        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+        {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+        {"bufferView": 1, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"}],
+    "materials": [{"name": "card", "pbrMetallicRoughness": {"metallicFactor": 0.25}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]},
+        {"primitives": [{"attributes": {"POSITION": 0}}, {"attributes": {"POSITION": 0}, "material": 0}]}],
+    "nodes": [{"name": "carrier", "children": [1, 2, 3], "translation": [0, 1, 0]},
+        {"name": "one", "mesh": 0}, {"name": "two", "mesh": 1},
+        {"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+    "extensionsUsed": ["KHR_lights_punctual"],
+    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 683}]}},
+    "animations": [{"samplers": [{"input": 1, "output": 2}],
+        "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],
+    "scenes": [{"nodes": [0]}], "scene": 0}"#;
+
+fn with_cards() -> (tempfile::TempDir, Files) {
+    let script = "load_gltf(\"models/cards.gltf\").at(5, 0, 0);";
+    let (folder, files) = folder(script);
+    std::fs::write(folder.path().join("models/cards.gltf"), GLTF).unwrap();
+    let numbers: [f32; 9 + 2 + 6] = [
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // a triangle
+        0.0, 1.0, // times
+        0.0, 0.0, 0.0, 0.0, 3.0, 0.0, // places
+    ];
+    let mut bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
+    bytes.resize(88, 0);
+    std::fs::write(folder.path().join("models/cards.bin"), bytes).unwrap();
+    (folder, files)
+}
+
+#[test]
+fn a_gltf_scene_is_built_moved_and_saved() {
+    let (folder, files) = with_cards();
+    let mut scene = open(&files, "test").unwrap();
+    let entity = |scene: &Scene, name: &str| scene.world.find(name).unwrap();
+    let root = entity(&scene, "cards");
+    assert_eq!(scene.world.parent(entity(&scene, "carrier")), Some(root));
+    assert_eq!(scene.world.children(entity(&scene, "two")).count(), 2);
+    let bulb: lightbench_world::Light = scene.world.get(entity(&scene, "bulb")).unwrap();
+    assert_eq!(bulb.intensity, 1.0);
+    assert!(scene.moves());
+    scene.update(0.5, 0.5).unwrap();
+    let one: lightbench_world::Transform = scene.world.get(entity(&scene, "one")).unwrap();
+    assert_eq!(one.translation.y, 1.5);
+    let matrix: lightbench_world::WorldMatrix = scene.world.get(entity(&scene, "one")).unwrap();
+    assert_eq!(matrix.matrix.translation.to_array(), [5.0, 2.5, 0.0]);
+
+    scene.save(&folder.path().join("cards.scene")).unwrap();
+    let mut again = open(&files, "cards.scene").unwrap();
+    assert_eq!(again.to_text().unwrap(), scene.to_text().unwrap());
+    assert_eq!(drawn(&again), drawn(&scene));
+}
+
+#[test]
+fn a_broken_gltf_is_told_with_its_path_and_line() {
+    let (folder, files) = with_cards();
+    std::fs::write(folder.path().join("models/cards.bin"), [0; 12]).unwrap();
+    let error = open(&files, "test").unwrap_err().to_string();
+    assert!(error.contains("test.rhai:1"), "{error}");
+    assert!(
+        error.contains("cards.gltf") && error.contains("buffer 0 is 12 bytes"),
+        "{error}"
+    );
+}
