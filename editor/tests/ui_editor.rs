@@ -51,14 +51,18 @@ fn choosing_a_pipeline_swaps_it_and_keeps_scene_camera_and_time() {
 
     // Back by its key: at once, and without compiling.
     let builds = workbench.pipelines.builds();
-    bench.harness.key_press(Key::Num1);
+    bench.harness.key_press(Key::Num4);
     bench.harness.step();
     assert_eq!(bench.shown(), "deferred_shading");
     assert_eq!(bench.picture(), deferred);
     assert_eq!(bench.harness.state().workbench.pipelines.builds(), builds);
-    bench.harness.key_press(Key::CloseBracket);
+    bench.harness.key_press(Key::Num6);
     bench.harness.step();
     assert_eq!(bench.shown(), "forward_single_pass");
+    bench.harness.key_press(Key::OpenBracket);
+    bench.until("the pipeline before", |editor| {
+        editor.workbench.pipelines.shown() == Some("forward_multi_pass")
+    });
 }
 
 #[test]
@@ -138,6 +142,12 @@ fn a_parameter_widget_changes_the_picture_without_compiling() {
     let mut bench = Bench::open();
     let first = bench.picture();
     let builds = bench.harness.state().workbench.pipelines.builds();
+    // The pipeline has more parameters than fit in the panel.
+    bench
+        .harness
+        .get_by_role_and_label(Role::Slider, "Exposure")
+        .scroll_to_me();
+    bench.harness.run_steps(4);
     let rail = bench
         .harness
         .get_by_role_and_label(Role::Slider, "Exposure")

@@ -223,9 +223,9 @@ fn every_mistake_in_a_shader_is_named_with_line_and_column() {
         ),
         (
             "@fragment",
-            "@group(1) @binding(5) var volume: texture_3d<f32>;
+            "@group(1) @binding(5) var volume: texture_1d<f32>;
 @fragment",
-            "`volume` is a texture that is not 2D",
+            "`volume` is a 1D texture; group 1 holds textures,",
         ),
     ];
     let path = "shaders/mine.wgsl";

@@ -284,7 +284,7 @@ const CALLS: &[&str] = &[
     "mesh(column(1, 5).taper(1).flutes(4)).triangles",
     "mesh(arch(1, 2, 1).span(180).voussoirs(5).joint(0)).triangles",
     "mesh(cloth(1, 2).waves(3, 1).sag(1).seed(2)).triangles",
-    "material(\"m\").color(1, 1, 1).specular(1).power(32).emissive(1, 2, 3).cutoff(1); 1",
+    "material(\"m\").color(1, 1, 1).specular(1).power(32).emissive(1, 2, 3).cutoff(1).opacity(1); 1",
     "material(\"m\").surface(stone_texture().size(8).seed(2).clouds(2).depth(1)); 1",
     "material(\"m\").texture(marble_texture().size(8).bands(1, 2)); 1",
     "material(\"m\").surface(brick_texture().size(8).pieces(2, 4).joint(0)); 1",
