@@ -48,7 +48,7 @@ fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) Texel {
         }
     }
 #ifdef AVERAGE
-    result /= Texel(count);
+    result /= f32(count);
 #endif
     return result;
 }

@@ -91,8 +91,6 @@ pub struct EngineBuffers<'a> {
     pub mesh_attributes: &'a wgpu::Buffer,
     /// Indices of all meshes.
     pub mesh_indices: &'a wgpu::Buffer,
-    /// Views of `shadow` passes.
-    pub shadow_views: &'a wgpu::Buffer,
     /// Differs where one of the buffers is another than before.
     pub revision: u64,
 }
@@ -103,7 +101,6 @@ impl EngineBuffers<'_> {
             EngineBuffer::MeshPositions => self.mesh_positions,
             EngineBuffer::MeshAttributes => self.mesh_attributes,
             EngineBuffer::MeshIndices => self.mesh_indices,
-            EngineBuffer::ShadowViews => self.shadow_views,
         }
     }
 }
@@ -177,7 +174,7 @@ impl CompiledPass {
                     Source::Engine(which) => engine.get(*which).as_entire_binding(),
                     Source::LinearSampler => wgpu::BindingResource::Sampler(&samplers.linear),
                     Source::NearestSampler => wgpu::BindingResource::Sampler(&samplers.nearest),
-                    Source::ShadowSampler => wgpu::BindingResource::Sampler(&samplers.shadow),
+                    Source::DepthSampler => wgpu::BindingResource::Sampler(&samplers.depth),
                 };
                 Some(wgpu::BindGroupEntry {
                     binding: *binding,
@@ -264,7 +261,7 @@ fn view(source: &Source, targets: &Targets) -> Option<wgpu::TextureView> {
 struct Samplers {
     linear: wgpu::Sampler,
     nearest: wgpu::Sampler,
-    shadow: wgpu::Sampler,
+    depth: wgpu::Sampler,
 }
 
 impl Samplers {
@@ -281,7 +278,7 @@ impl Samplers {
         Self {
             linear: sampler(wgpu::FilterMode::Linear, None),
             nearest: sampler(wgpu::FilterMode::Nearest, None),
-            shadow: sampler(
+            depth: sampler(
                 wgpu::FilterMode::Linear,
                 Some(wgpu::CompareFunction::GreaterEqual),
             ),

@@ -2,7 +2,7 @@
 //!
 //! Bytes are modelled, not measured: see [`traffic`].
 
-use crate::description::{Blend, Load, PassDesc, PassKind};
+use crate::description::{Blend, Load, PassDesc, PassKind, Read, Slice};
 use crate::pipeline::Pipeline;
 use crate::targets::Targets;
 
@@ -79,44 +79,120 @@ pub struct Traffic {
 ///   depends on the order of the objects.
 /// - `lights` passes touch the pixels that the lights cover: the sum over the lights of the share
 ///   of the picture inside the light's bounding rectangle (`coverage`).
-/// - Reading a target costs one texel a pixel. Blending and keeping read the old value. A depth
-///   test reads depth; depth that is cleared in the same pass is not read.
-/// - Clearing writes once. Vertices, textures and buffers are left out.
+/// - Reading a target costs one texel a pixel; reading a buffer costs all of it once. Blending and
+///   keeping read the old value. A depth test reads depth; depth that is cleared in the same pass is
+///   not read. All samples of a texel count.
+/// - Clearing writes once. Samples that are dropped at the end of their pass are not written, and
+///   what they resolve to is.
+/// - `compute` passes read what they read and write what they update, each once.
+/// - `copy`, `history` and `resolve` read one target and write the other; `mips` read all levels but
+///   the last and write all but the first; `clear` writes all.
+/// - Vertices, textures and the engine's buffers are left out.
 pub fn traffic(pass: &PassDesc, targets: &Targets, coverage: f64) -> Traffic {
-    let bytes = |name: &str| targets.get(name).map_or(0, |target| target.bytes());
-    let share = if matches!(pass.kind, PassKind::Lights(_)) {
-        coverage
-    } else {
-        1.0
+    let share = match pass.kind {
+        PassKind::Lights(_) => coverage,
+        _ => 1.0,
     };
     let scaled = |bytes: u64| (bytes as f64 * share).round() as u64;
     let mut traffic = Traffic::default();
+    match &pass.kind {
+        PassKind::Copy { from, to } | PassKind::History { from, to } => {
+            let bytes = read_bytes(from, targets).min(read_bytes(to, targets));
+            return Traffic {
+                read: bytes,
+                written: bytes,
+            };
+        }
+        PassKind::Resolve { from, to } => {
+            return Traffic {
+                read: read_bytes(from, targets),
+                written: read_bytes(to, targets),
+            };
+        }
+        PassKind::Mips { target, .. } => {
+            let Some(target) = targets.get(&target.target) else {
+                return traffic;
+            };
+            let last = target.texture.mip_level_count().saturating_sub(1);
+            return Traffic {
+                read: target.bytes() - target.mip_bytes(last),
+                written: target.bytes() - target.mip_bytes(0),
+            };
+        }
+        PassKind::Clear => {
+            let names = pass.colors.iter().map(|color| &color.target);
+            let names = names.chain(pass.depth.iter().map(|depth| &depth.target));
+            let names = names.chain(pass.updates.iter().map(|update| &update.target));
+            traffic.written = names.map(|name| whole_bytes(name, targets)).sum();
+            return traffic;
+        }
+        _ => {}
+    }
     for read in &pass.reads {
         // Depth-stencil formats hold more than the depth that shaders read, but travel whole.
-        traffic.read += scaled(bytes(&read.target));
+        traffic.read += scaled(read_bytes(read, targets));
+    }
+    for update in &pass.updates {
+        let bytes = match targets.get(&update.target) {
+            Some(target) if update.one_layer => target.slice_bytes(update.slice),
+            Some(target) => target.mip_bytes(update.slice.mip),
+            None => whole_bytes(&update.target, targets),
+        };
+        traffic.written += scaled(bytes);
     }
     for color in &pass.colors {
-        let size = bytes(&color.target);
-        traffic.written += scaled(size);
+        let Some(target) = targets.get(&color.target) else {
+            continue;
+        };
+        let size = target.slice_bytes(color.slice);
+        if color.store {
+            traffic.written += scaled(size);
+        }
         if color.blend != Blend::Replace {
             traffic.read += scaled(size);
         }
         if matches!(color.load, Load::Clear(_)) && share != 1.0 {
             traffic.written += size;
         }
+        if let Some(resolve) = &color.resolve {
+            traffic.written += whole_bytes(&resolve.name, targets);
+        }
     }
-    if let Some(depth) = &pass.depth {
-        let size = bytes(&depth.target);
+    if let Some(depth) = &pass.depth
+        && let Some(target) = targets.get(&depth.target)
+    {
+        let size = target.slice_bytes(depth.slice);
         if matches!(depth.load, Load::Keep)
             && !pass.reads.iter().any(|read| read.target == depth.target)
         {
             traffic.read += scaled(size);
         }
-        if depth.write {
+        if depth.write && depth.store {
             traffic.written += scaled(size);
         }
     }
     traffic
+}
+
+/// Bytes of the part of a target or buffer that is read.
+fn read_bytes(read: &Read, targets: &Targets) -> u64 {
+    match (targets.get(&read.target), read.mip, read.layer) {
+        (None, ..) => whole_bytes(&read.target, targets),
+        (Some(target), mip, Some(layer)) => target.slice_bytes(Slice {
+            mip: mip.unwrap_or(0),
+            layer,
+        }),
+        (Some(target), Some(mip), None) => target.mip_bytes(mip),
+        (Some(target), None, None) => target.bytes(),
+    }
+}
+
+/// Bytes of all of a target or buffer.
+fn whole_bytes(name: &str, targets: &Targets) -> u64 {
+    match targets.get(name) {
+        Some(target) => target.bytes(),
+        None => targets.buffer(name).map_or(0, |buffer| buffer.size()),
+    }
 }
 
 /// Memory of one target.

@@ -94,7 +94,7 @@ fn binding_type(
         Source::NearestSampler => {
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)
         }
-        Source::ShadowSampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+        Source::DepthSampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
     }
 }
 

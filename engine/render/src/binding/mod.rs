@@ -14,16 +14,15 @@ use crate::shader::{Shader, place_of};
 const SAMPLERS: [(&str, Source); 3] = [
     ("linear_sampler", Source::LinearSampler),
     ("nearest_sampler", Source::NearestSampler),
-    ("shadow_sampler", Source::ShadowSampler),
+    ("depth_sampler", Source::DepthSampler),
 ];
 
 /// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
 /// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 4] = [
+const ENGINE_BUFFERS: [(&str, EngineBuffer); 3] = [
     ("mesh_positions", EngineBuffer::MeshPositions),
     ("mesh_attributes", EngineBuffer::MeshAttributes),
     ("mesh_indices", EngineBuffer::MeshIndices),
-    ("shadow_views", EngineBuffer::ShadowViews),
 ];
 
 /// A buffer that the engine fills.
@@ -35,8 +34,6 @@ pub enum EngineBuffer {
     MeshAttributes,
     /// Indices of all meshes.
     MeshIndices,
-    /// The views that `shadow` passes draw.
-    ShadowViews,
 }
 
 /// Where the resource of one binding of group 1 comes from.
@@ -78,7 +75,7 @@ pub enum Source {
     /// The sampler that takes the nearest texel.
     NearestSampler,
     /// The sampler that compares depth: 1 where the reference is as near as what is there.
-    ShadowSampler,
+    DepthSampler,
 }
 
 /// Checks the shader of a pass against its declaration and finds the source of each binding.
@@ -351,7 +348,7 @@ impl Binder<'_> {
             self.report(name, format!("there is no sampler `{name}`"), hint);
             return None;
         };
-        let right = *source == Source::ShadowSampler;
+        let right = *source == Source::DepthSampler;
         if right != comparison {
             let wanted = if right {
                 "sampler_comparison"

@@ -246,7 +246,6 @@ impl Compiler {
             PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
             PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
             PassKind::Compute(_) => self.compute(files, pass, &layout),
-            PassKind::Shadow(_) => Ok(PassPipelines::None),
             PassKind::Mips { target, reduction } => {
                 self.mips(files, desc, pass, &target.target, *reduction)
             }

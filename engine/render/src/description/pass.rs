@@ -87,7 +87,7 @@ pub enum DrawList {
     Transparent,
     /// Everything visible.
     All,
-    /// What casts shadows, visible or not. A `shadow` pass draws those that its view shows.
+    /// Everything that hides what is behind it, whether the camera sees it or not.
     Casters,
 }
 
@@ -316,26 +316,6 @@ impl Reduction {
     ];
 }
 
-/// Which lights a `shadow` pass looks from: those with a shadow, in the order of their rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ShadowViews {
-    /// Spot lights, one layer each.
-    Spot,
-    /// Directional lights, one layer each, fitted to what casts shadows.
-    Directional,
-    /// Point lights, six layers each.
-    Point,
-}
-
-impl ShadowViews {
-    /// The names used in pipeline files.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("spot", Self::Spot),
-        ("directional", Self::Directional),
-        ("point", Self::Point),
-    ];
-}
-
 /// What a pass does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassKind {
@@ -347,8 +327,6 @@ pub enum PassKind {
     Fullscreen,
     /// Runs a compute shader.
     Compute(Dispatch),
-    /// Draws the depth of what casts shadows, from lights, one layer a view.
-    Shadow(ShadowViews),
     /// Fills its targets with their clear values, and its buffers with zeros.
     Clear,
     /// Copies one target or buffer to another of the same kind and size.
@@ -390,7 +368,6 @@ impl PassKind {
             Self::Lights(_) => "lights",
             Self::Fullscreen => "fullscreen",
             Self::Compute(_) => "compute",
-            Self::Shadow(_) => "shadow",
             Self::Clear => "clear",
             Self::Copy { .. } => "copy",
             Self::Resolve { .. } => "resolve",
@@ -401,10 +378,7 @@ impl PassKind {
 
     /// Whether it draws through the rasteriser with a shader.
     pub fn rasterises(&self) -> bool {
-        matches!(
-            self,
-            Self::Geometry(_) | Self::Lights(_) | Self::Fullscreen | Self::Shadow(_)
-        )
+        matches!(self, Self::Geometry(_) | Self::Lights(_) | Self::Fullscreen)
     }
 }
 

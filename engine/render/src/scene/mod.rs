@@ -233,7 +233,6 @@ impl Scene {
             mesh_positions,
             mesh_attributes,
             mesh_indices,
-            shadow_views: self.lights.buffer(),
             revision,
         }
     }

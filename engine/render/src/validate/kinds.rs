@@ -41,15 +41,6 @@ impl<S: FormatSupport> Checker<'_, S> {
                 }
             }
             PassKind::Compute(dispatch) => self.dispatch(pass, dispatch),
-            PassKind::Shadow(_) => {
-                if pass.depth.is_none() {
-                    self.report(
-                        &pass.at,
-                        format!("the shadow pass `{}` has no depth target", pass.name),
-                        "add .depth(\"target\").clear(0.0)".to_owned(),
-                    );
-                }
-            }
             PassKind::Clear => self.clear(pass),
             PassKind::Copy { from, to } | PassKind::History { from, to } => {
                 self.copy(pass, from, to);
@@ -313,7 +304,6 @@ impl<S: FormatSupport> Checker<'_, S> {
         let draws = pass.kind.rasterises() || matches!(pass.kind, PassKind::Compute(_));
         let depth_only = match pass.kind {
             PassKind::Geometry(_) => pass.colors.is_empty() && pass.updates.is_empty(),
-            PassKind::Shadow(_) => true,
             _ => false,
         };
         match &pass.shader {

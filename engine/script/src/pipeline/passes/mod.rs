@@ -12,9 +12,7 @@ mod shader;
 mod transfer;
 
 use lightbench_render::Place;
-use lightbench_render::description::{
-    Amount, Dispatch, Geometry, Lights, PassDesc, PassKind, ShadowViews,
-};
+use lightbench_render::description::{Amount, Dispatch, Geometry, Lights, PassDesc, PassKind};
 use lightbench_render::problem::suggestion;
 
 use super::builder::{Builder, Last, Pipeline, method as pipeline_method};
@@ -60,13 +58,6 @@ pub(super) fn register(api: &mut Api) {
             let once = Dispatch::Groups(Amount::Fixed(1, 1, 1));
             Ok(PassKind::Compute(once))
         },
-    );
-    begin(
-        api,
-        "shadow(name, lights)",
-        "Adds a pass that draws the depth of what casts shadows into the layers of a depth target, \
-         seen from `spot`, `directional` or `point` lights; a point light takes six layers.",
-        |arguments| Ok(PassKind::Shadow(arguments.choice(1, &ShadowViews::NAMES)?)),
     );
     begin(
         api,
