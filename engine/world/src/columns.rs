@@ -208,6 +208,11 @@ impl<C: Component> Columns<C> {
         self.ticks.is_after(row, since)
     }
 
+    /// Whether all rows were written together after a tick.
+    pub(crate) fn all_changed_since(&self, since: Tick) -> bool {
+        self.ticks.all_after(since)
+    }
+
     /// Whether any row was written, added or removed after a tick.
     pub fn any_changed_since(&self, since: Tick) -> bool {
         self.ticks.last().is_after(since)

@@ -138,15 +138,22 @@ impl ChangeTicks {
         self.last = now;
     }
 
+    /// Whether all rows were marked together after `since`.
+    pub fn all_after(&self, since: Tick) -> bool {
+        self.all.is_after(since)
+    }
+
     pub fn last(&self) -> Tick {
         self.last
     }
 
     #[inline]
     pub fn is_after(&self, row: usize, since: Tick) -> bool {
-        let base = self.blocks[row / BLOCK].base;
-        Tick(base.wrapping_add(u32::from(self.rows[row]))).is_after(since)
-            || self.all.is_after(since)
+        // The same for all rows, so that a loop asks once.
+        self.all.is_after(since) || {
+            let base = self.blocks[row / BLOCK].base;
+            Tick(base.wrapping_add(u32::from(self.rows[row]))).is_after(since)
+        }
     }
 
     /// Rows of a range that were written after `since`, in ascending order.
@@ -194,22 +201,20 @@ impl ChangeTicks {
 #[inline]
 fn mark(rows: &mut [u16], blocks: &mut [Block], row: usize, now: Tick) {
     let block = &mut blocks[row / BLOCK];
-    block.last = now;
-    let age = now.0.wrapping_sub(block.base);
-    rows[row] = match u16::try_from(age) {
-        Ok(age) => age,
-        Err(_) => {
+    if block.last != now {
+        block.last = now;
+        if now.0.wrapping_sub(block.base) > u32::from(u16::MAX) {
             let first = row / BLOCK * BLOCK;
             let end = rows.len().min(first + BLOCK);
-            move_base(block, &mut rows[first..end], now)
+            move_base(block, &mut rows[first..end], now);
         }
-    };
+    }
+    rows[row] = now.0.wrapping_sub(block.base) as u16;
 }
 
-/// Moves the base of a block towards the present, and returns the present's
-/// distance from it.
+/// Moves the base of a block towards the present.
 #[cold]
-fn move_base(block: &mut Block, rows: &mut [u16], now: Tick) -> u16 {
+fn move_base(block: &mut Block, rows: &mut [u16], now: Tick) {
     let base = now.0.wrapping_sub(REACH);
     let moved = base.wrapping_sub(block.base);
     let moved = u16::try_from(moved).unwrap_or(u16::MAX);
@@ -217,7 +222,6 @@ fn move_base(block: &mut Block, rows: &mut [u16], now: Tick) -> u16 {
         *row = row.saturating_sub(moved);
     }
     block.base = base;
-    REACH as u16
 }
 
 /// The ticks of a run of rows that starts and ends with whole blocks.

@@ -112,6 +112,8 @@ fn update<P: Placed>(world: &mut World) {
     let mut output = world.take_columns::<P::World>();
     if state.parents.is_empty() {
         update_flat::<P>(world.columns::<P>(), &mut output, seen);
+    } else if !replanned && world.columns::<P>().all_changed_since(seen) {
+        state.update_whole_tree::<P>(world.columns::<P>(), &mut output);
     } else {
         let since = if replanned { Tick::START } else { seen };
         state.update_tree::<P>(world.columns::<P>(), &mut output, since);
@@ -132,6 +134,25 @@ fn update_flat<P: Placed>(input: &Columns<P>, output: &mut Columns<P::World>, si
 }
 
 impl MatrixState {
+    /// Every transform was written: nothing is asked row by row.
+    fn update_whole_tree<P: Placed>(&self, input: &Columns<P>, output: &mut Columns<P::World>) {
+        let matrices = P::matrices(output.slices_mut());
+        let mut visit = |row: usize| {
+            let local = P::local(input, row);
+            let parent = self.parents[row];
+            matrices[row] = if parent == ROOT {
+                local
+            } else {
+                P::compose(&matrices[parent as usize], &local)
+            };
+        };
+        if self.order.is_empty() {
+            (0..self.parents.len()).for_each(visit);
+        } else {
+            self.order.iter().for_each(|&row| visit(row as usize));
+        }
+    }
+
     /// A parent's matrix is final before its children read it.
     fn update_tree<P: Placed>(
         &self,
@@ -322,6 +343,37 @@ mod tests {
         update_world_matrices(&mut world);
         check_all(&world);
         assert!(world.systems.matrices.order.is_empty());
+    }
+
+    #[test]
+    fn a_tree_that_is_written_as_a_whole_is_whole() {
+        let mut world = World::new();
+        let entities: Vec<_> = (0..40).map(|_| world.spawn()).collect();
+        for (i, &entity) in entities.iter().enumerate().rev() {
+            world.insert(entity, sample(i)).unwrap();
+        }
+        for i in 1..40 {
+            let parent = entities[(i * 5 + 1) % i];
+            world.set_parent(entities[i], Some(parent)).unwrap();
+        }
+        update_world_matrices(&mut world);
+        let seen = world.observe();
+        for place in world.columns_mut::<Transform>().slices_mut().translation {
+            *place += Vec3::Y;
+        }
+        update_world_matrices(&mut world);
+        check_all(&world);
+        assert_eq!(
+            world.columns::<WorldMatrix>().changed_since(seen).count(),
+            40
+        );
+        // What comes after is told row by row again.
+        let seen = world.observe();
+        world.set(entities[0], sample(77)).unwrap();
+        world.set_parent(entities[39], None).unwrap();
+        update_world_matrices(&mut world);
+        check_all(&world);
+        assert!(world.columns::<WorldMatrix>().changed_since(seen).count() > 1);
     }
 
     #[test]
