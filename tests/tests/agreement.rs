@@ -188,6 +188,7 @@ fn on_the_hard_cases() {
         "huge",
         "one_point",
         "behind",
+        "panes",
         "no_lights",
         "no_objects",
     ] {
@@ -197,7 +198,7 @@ fn on_the_hard_cases() {
 
 #[test]
 fn on_hard_cases_with_portable_features_only() {
-    for case in ["camera_inside", "far_plane", "wide_spot"] {
+    for case in ["camera_inside", "far_plane", "wide_spot", "panes"] {
         agree("hard_cases", &[&format!("case={case}")], true);
     }
 }
