@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     let desc = load_pipeline(&files, &pipeline, &settings)
         .map_err(|problems| report::problems(&files, problems))?;
     let renderer = Renderer::new(Gpu::open(&arguments.gpu.options())?);
-    renderer
+    let compiled = renderer
         .compiler()
         .compile(&files, &desc)
         .map_err(|problems| report::problems(&files, problems))?;
@@ -53,6 +53,22 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         desc.targets.len(),
         desc.passes.len()
     ))?;
+    for name in compiled.lives().dropped(&compiled.desc) {
+        say(format!(
+            "the pass `{name}` is left out: nobody uses what it writes"
+        ))?;
+    }
+    for note in &compiled.notes {
+        say(note.as_str())?;
+    }
+    for ability in &desc.abilities {
+        let can = if ability.supported {
+            "can do"
+        } else {
+            "can't do"
+        };
+        say(format!("{can} {}: {}", ability.name, ability.text))?;
+    }
     let needs = desc.features_needed();
     if !needs.is_empty() {
         say(format!(

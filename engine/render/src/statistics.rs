@@ -204,6 +204,8 @@ pub struct TargetMemory {
     pub format: crate::Format,
     /// Its size in texels.
     pub size: (u32, u32),
+    /// Samples a texel.
+    pub samples: u32,
     /// Bytes of all its texels.
     pub bytes: u64,
 }
@@ -218,6 +220,7 @@ impl Pipeline {
                 name: target.name.clone(),
                 format: crate::Format(target.texture.format()),
                 size: (target.texture.width(), target.texture.height()),
+                samples: target.texture.sample_count(),
                 bytes: target.bytes(),
             })
             .collect()

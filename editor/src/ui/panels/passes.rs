@@ -30,6 +30,8 @@ pub struct PassesPanel {
     rows: Vec<Row>,
     /// Name and median of each system.
     systems: Vec<(&'static str, Option<f64>)>,
+    /// What each counter of the pipeline counts, and its value.
+    counters: Vec<(String, Option<u32>)>,
     target_bytes: u64,
     pipeline: String,
     refreshed: Option<Instant>,
@@ -54,6 +56,13 @@ impl PassesPanel {
         let Some(pipeline) = editor.pipelines.shown_pipeline() else {
             return;
         };
+        let counters = pipeline.desc.counters.iter().enumerate();
+        self.counters = counters
+            .map(|(index, counter)| {
+                let value = editor.timings.counters.get(index).copied();
+                (counter.description.clone(), value)
+            })
+            .collect();
         for (index, pass) in pipeline.desc.passes.iter().enumerate() {
             let times = editor.timings.passes.get(index);
             self.rows.push(Row {
@@ -149,7 +158,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                     let row = &panel.rows[index];
                     table_row.col(|ui| {
                         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                            ui.label(&row.name).on_hover_text(row.kind);
+                            let name = RichText::new(&row.name);
+                            if row.cost.dropped {
+                                let why = "Left out: nobody uses what it writes.";
+                                ui.label(name.weak()).on_hover_text(why);
+                            } else {
+                                ui.label(name).on_hover_text(row.kind);
+                            }
                         });
                     });
                     table_row.col(|ui| {
@@ -186,6 +201,25 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                     cell(bytes(row.cost.traffic.written), "");
                 });
             });
+    });
+    counters(panel, ui);
+}
+
+/// What the pipeline's shaders counted.
+fn counters(panel: &PassesPanel, ui: &mut Ui) {
+    if panel.counters.is_empty() {
+        return;
+    }
+    ui.add_space(4.0);
+    ui.label(RichText::new("Counted by its shaders").small().weak());
+    let table = egui::Grid::new("counters").num_columns(2);
+    table.striped(true).show(ui, |ui| {
+        for (description, value) in &panel.counters {
+            ui.label(description);
+            let value = value.map_or_else(|| MISSING.to_owned(), |v| count(v.into()));
+            ui.label(RichText::new(value).monospace());
+            ui.end_row();
+        }
     });
 }
 

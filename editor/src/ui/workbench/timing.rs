@@ -74,6 +74,8 @@ pub struct Timings {
     pub gpu_ms: Series,
     /// Extracting, uploading and recording a frame, milliseconds.
     pub cpu_ms: Series,
+    /// What the pipeline's shaders counted in the last frame that came back.
+    pub counters: Vec<u32>,
     /// The frames of this pipeline and size that were submitted and not yet measured.
     expected: VecDeque<u32>,
 }
@@ -143,6 +145,7 @@ impl Timings {
         if let Some(total) = measured.total_ms {
             self.gpu_ms.push(total);
         }
+        self.counters.clone_from(&measured.counters);
         for (times, ms) in self.passes.iter_mut().zip(&measured.gpu_ms) {
             times.gpu_ms.push(*ms);
         }

@@ -5,7 +5,9 @@ use lightbench_render::queries::Measured;
 use lightbench_render::{FrameStatistics, Pipeline};
 use lightbench_world::SystemTime;
 
-use crate::report::{Parameter, PassResult, PipelineResult, SystemResult, TargetResult};
+use crate::report::{
+    AbilityResult, CounterResult, Parameter, PassResult, PipelineResult, SystemResult, TargetResult,
+};
 
 /// What the adapter can't measure, in words for the report.
 #[derive(Clone, Debug)]
@@ -48,6 +50,16 @@ impl Series {
             name: parameter.name.clone(),
             value: parameter.value.to_string(),
         });
+        let abilities = desc.abilities.iter().map(|ability| AbilityResult {
+            name: ability.name.clone(),
+            supported: ability.supported,
+            text: ability.text.clone(),
+        });
+        let counters = desc.counters.iter().map(|counter| CounterResult {
+            name: counter.name.clone(),
+            description: counter.description.clone(),
+            values: Vec::with_capacity(frames),
+        });
         Self {
             result: PipelineResult {
                 name: desc.name.clone(),
@@ -55,6 +67,9 @@ impl Series {
                 description: desc.description.clone(),
                 parameters: parameters.collect(),
                 features_needed: desc.features_needed(),
+                notes: pipeline.notes.clone(),
+                abilities: abilities.collect(),
+                counters: counters.collect(),
                 passes: passes.collect(),
                 frame_cpu_ms: Vec::with_capacity(frames),
                 ..PipelineResult::default()
@@ -79,6 +94,10 @@ impl Series {
         self.result.frame_cpu_ms.push(cpu);
         let total = measured.and_then(|measured| measured.total_ms);
         self.frames.push(total.unwrap_or(f64::NAN));
+        let counts = measured.map_or(&[][..], |measured| &measured.counters);
+        for (counter, value) in self.result.counters.iter_mut().zip(counts) {
+            counter.values.push(f64::from(*value));
+        }
         let passes = self.result.passes.iter_mut().zip(&mut self.passes);
         for (index, ((pass, times), cost)) in passes.zip(&statistics.passes).enumerate() {
             let time = measured.and_then(|measured| measured.gpu_ms.get(index));
@@ -87,10 +106,13 @@ impl Series {
             pass.draws = u64::from(cost.draws);
             pass.instances = u64::from(cost.instances);
             pass.triangles = cost.triangles;
+            pass.dispatches = u64::from(cost.dispatches);
+            pass.dropped = cost.dropped;
             pass.bytes_read = cost.traffic.read;
             pass.bytes_written = cost.traffic.written;
             if let Some(measured) = measured {
                 pass.fragments = measured.fragments.get(index).copied();
+                pass.vertices = measured.vertices.get(index).copied();
             }
         }
     }
@@ -121,14 +143,16 @@ impl Series {
             pass.why_not = (!reasons.is_empty()).then(|| reasons.join("; "));
         }
         let memory = pipeline.target_memory();
-        result.target_bytes_total = memory.iter().map(|target| target.bytes).sum();
+        let targets = pipeline.targets();
+        result.target_bytes_total = targets.map_or(0, |targets| targets.bytes());
+        result.saved_bytes = targets.map_or(0, |targets| targets.saved_bytes);
         result.targets = memory
             .into_iter()
             .map(|target| TargetResult {
                 name: target.name,
                 format: target.format.name(),
                 size: [target.size.0, target.size.1],
-                samples: 1,
+                samples: target.samples,
                 bytes: target.bytes,
             })
             .collect();

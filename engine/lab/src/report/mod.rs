@@ -16,7 +16,7 @@ pub mod summary;
 mod write;
 
 pub use model::{
-    Adapter, Comparison, Input, Machine, Parameter, PassResult, PipelineResult, SCHEMA, Seed,
-    SystemResult, TargetResult,
+    AbilityResult, Adapter, Comparison, CounterResult, Input, Machine, Parameter, PassResult,
+    PipelineResult, SCHEMA, Seed, SystemResult, TargetResult,
 };
 pub use write::{ReportFiles, read_json, to_json, write_report};

@@ -139,8 +139,21 @@ pub struct PipelineResult {
     pub passes: Vec<PassResult>,
     /// The targets that it declares.
     pub targets: Vec<TargetResult>,
-    /// Bytes of memory of all targets, after targets that share a texture are counted once.
+    /// Bytes of memory of all targets and buffers, after targets that share a texture are counted
+    /// once.
     pub target_bytes_total: u64,
+    /// Bytes that targets would take beyond that if none shared its texture.
+    #[serde(default)]
+    pub saved_bytes: u64,
+    /// What its shaders counted.
+    #[serde(default)]
+    pub counters: Vec<CounterResult>,
+    /// What it says that it can do and what not.
+    #[serde(default)]
+    pub abilities: Vec<AbilityResult>,
+    /// Where the adapter's limits changed it, in a sentence each.
+    #[serde(default)]
+    pub notes: Vec<String>,
     /// Its picture against that of the reference, in 8-bit sRGB; absent for the reference.
     pub difference: Option<LdrDifference>,
     /// The same before the tone curve, in linear light.
@@ -155,6 +168,28 @@ pub struct PipelineResult {
     /// FLIP of each pixel, painted with magma from 0 to 1; not part of the JSON.
     #[serde(skip)]
     pub heat_map: Option<LdrImage>,
+}
+
+/// A number that shaders counted, as lights on lists.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CounterResult {
+    /// Name of the counter, unique in its pipeline.
+    pub name: String,
+    /// What it counts.
+    pub description: String,
+    /// Its value after each measured frame.
+    pub values: Vec<f64>,
+}
+
+/// Something that a pipeline can do, or can't.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AbilityResult {
+    /// What it is about, as `transparency`.
+    pub name: String,
+    /// Whether the pipeline can do it.
+    pub supported: bool,
+    /// By which means, or why not.
+    pub text: String,
 }
 
 /// What one system cost.
@@ -186,8 +221,14 @@ pub struct PassResult {
     pub triangles: u64,
     /// Fragment shader invocations, where the adapter counts them.
     pub fragments: Option<u64>,
+    /// Vertex shader invocations, where the adapter counts them.
+    #[serde(default)]
+    pub vertices: Option<u64>,
     /// Compute dispatches.
     pub dispatches: u64,
+    /// Whether it did not run, since nobody uses what it writes.
+    #[serde(default)]
+    pub dropped: bool,
     /// Bytes read, modelled from the declared formats and sizes.
     pub bytes_read: u64,
     /// Bytes written, modelled from the declared formats and sizes.

@@ -59,6 +59,7 @@ fn pass(name: &str, kind: &str, gpu: f64, draws: u64, written: u64) -> PassResul
         bytes_read: written / 2,
         bytes_written: written,
         why_not: None,
+        ..PassResult::default()
     }
 }
 

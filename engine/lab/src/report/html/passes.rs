@@ -114,6 +114,7 @@ fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
     rows.push(total_row(p));
     let caption = format!("Passes of {}, ms a frame{}.", p.label(), software_note(c));
     table(w, &caption, &columns, &rows);
+    counted(w, p);
     for (why, what) in reasons(p) {
         let why = why.trim_end_matches('.');
         w.leaf(
@@ -124,6 +125,52 @@ fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
     }
     if let Some(note) = counter_note(c, p) {
         w.leaf("p", &[("class", "note")], note);
+    }
+}
+
+/// What shaders counted, what did not run, and what the adapter changed.
+fn counted(w: &mut Writer, p: &PipelineResult) {
+    let mut notes: Vec<String> = p
+        .counters
+        .iter()
+        .filter_map(|counter| {
+            let summary = Summary::of(&counter.values)?;
+            let median = count(summary.median.round() as u64);
+            Some(format!(
+                "{}: {median} (median a frame).",
+                counter.description
+            ))
+        })
+        .collect();
+    let dropped: Vec<&str> = p
+        .passes
+        .iter()
+        .filter(|pass| pass.dropped)
+        .map(|pass| pass.name.as_str())
+        .collect();
+    if !dropped.is_empty() {
+        notes.push(format!(
+            "Left out, since nobody uses what they write: {}.",
+            dropped.join(", ")
+        ));
+    }
+    if p.saved_bytes > 0 {
+        notes.push(format!(
+            "Targets that share a texture with another save {}.",
+            bytes(p.saved_bytes)
+        ));
+    }
+    notes.extend(p.notes.iter().map(|note| format!("{note}.")));
+    for note in notes {
+        w.leaf("p", &[("class", "note")], &note);
+    }
+    for (supported, title) in [(true, "Can do"), (false, "Can't do")] {
+        let found = p.abilities.iter().filter(|a| a.supported == supported);
+        let texts: Vec<String> = found.map(|a| format!("{} ({})", a.name, a.text)).collect();
+        if !texts.is_empty() {
+            let text = format!("{title}: {}.", texts.join("; ").replace(".)", ")"));
+            w.leaf("p", &[("class", "about")], &text);
+        }
     }
 }
 
