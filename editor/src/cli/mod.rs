@@ -9,6 +9,7 @@ mod diff;
 mod doctor;
 mod edit;
 mod faults;
+mod inspect;
 mod list;
 mod load;
 mod new;
@@ -59,6 +60,8 @@ enum Command {
     Edit(edit::Arguments),
     /// Writes one picture of a scene, as PNG or EXR
     Render(render::Arguments),
+    /// Shows what the targets of a frame hold after each pass
+    Inspect(inspect::Arguments),
     /// Measures pipelines on one scene and writes a report
     Compare(compare::Arguments),
     /// Says how far apart two pictures are
@@ -113,6 +116,7 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
     match arguments.command {
         Command::Edit(arguments) => edit::run(&arguments, files()?),
         Command::Render(arguments) => render::run(&arguments, files()?),
+        Command::Inspect(arguments) => inspect::run(&arguments, files()?),
         Command::Compare(arguments) => compare::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),

@@ -13,7 +13,8 @@
 //!
 //! - [`mod@reference`] has the shaders' formulas on the CPU.
 //!
-//! - [`capture`] takes a picture of a scene, [`measure`] times pipelines on it. They need a GPU; the
+//! - [`capture`] takes a picture of a scene, [`inspect`] looks into its frame pass by pass,
+//!   [`measure`] times pipelines on it. They need a GPU; the
 //!   rest doesn't.
 //!
 //! ```
@@ -35,6 +36,7 @@ pub mod diff;
 mod error;
 pub mod files;
 pub mod heatmap;
+pub mod inspect;
 pub mod measure;
 pub mod metrics;
 mod picture;

@@ -345,6 +345,8 @@ pub struct Pipeline {
     outgrown: bool,
     /// The first of the frames that it drew without another pipeline between.
     run_began: u32,
+    /// The pass that ends a frame, if not the last one.
+    last_pass: Option<usize>,
 }
 
 impl Pipeline {
@@ -377,6 +379,7 @@ impl Pipeline {
             last_frame: None,
             outgrown: false,
             run_began: 0,
+            last_pass: None,
         }
     }
 
@@ -397,6 +400,19 @@ impl Pipeline {
             self.share_textures = !keep;
             self.targets = None;
         }
+    }
+
+    /// Ends each frame after that pass, counted from 0, so that targets can be read as it leaves
+    /// them; or runs all passes again.
+    pub fn stop_after(&mut self, pass: Option<usize>) {
+        self.last_pass = pass;
+    }
+
+    /// Whether a pass runs, if nobody looks at its results: passes that nobody needs run only where
+    /// all targets are kept.
+    pub(crate) fn runs(&self, pass: usize) -> bool {
+        let needed = self.lives.needed.get(pass).copied().unwrap_or(false);
+        (needed || !self.share_textures) && self.last_pass.is_none_or(|last| pass <= last)
     }
 
     /// Frames whose results `history` targets hold; 0 in the first frame and after a change of

@@ -3,6 +3,7 @@
 use half::f16;
 use wgpu::TextureFormat;
 
+use crate::description::Slice;
 use crate::gpu::{Gpu, GpuError};
 
 /// The texels of a target, as floats.
@@ -24,12 +25,34 @@ pub struct TargetImage {
 /// Seconds after which a read-back gives up.
 const TIMEOUT: u64 = 60;
 
-/// Copies a texture to the CPU and waits for it.
+/// Copies the first layer of a texture to the CPU and waits for it.
 ///
 /// # Errors
-/// When the device is lost or does not answer.
+/// When the device is lost or does not answer, or can't copy the texture.
 pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuError> {
-    let (width, height) = (texture.width(), texture.height());
+    read_slice(gpu, texture, Slice::default())
+}
+
+/// Copies one mip level of one layer of a texture to the CPU and waits for it.
+///
+/// # Errors
+/// As [`read_bytes`].
+pub fn read_slice(gpu: &Gpu, texture: &wgpu::Texture, slice: Slice) -> Result<Vec<u8>, GpuError> {
+    if texture.sample_count() > 1 {
+        return Err(GpuError::Driver(
+            "a target with several samples can't be read; read what it is resolved to".to_owned(),
+        ));
+    }
+    if matches!(
+        texture.format(),
+        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8
+    ) {
+        return Err(GpuError::Driver(
+            "depth of 24 bits can't be read; give the target the format `depth32float`".to_owned(),
+        ));
+    }
+    let side = |length: u32| (length >> slice.mip).max(1);
+    let (width, height) = (side(texture.width()), side(texture.height()));
     let texel = aspect_bytes(texture.format());
     let row = width * texel;
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -45,8 +68,12 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuErro
     encoder.copy_texture_to_buffer(
         wgpu::TexelCopyTextureInfo {
             texture,
-            mip_level: 0,
-            origin: wgpu::Origin3d::ZERO,
+            mip_level: slice.mip,
+            origin: wgpu::Origin3d {
+                x: 0,
+                y: 0,
+                z: slice.layer,
+            },
             aspect: aspect(texture.format()),
         },
         wgpu::TexelCopyBufferInfo {
@@ -57,7 +84,11 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuErro
                 rows_per_image: None,
             },
         },
-        texture.size(),
+        wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
     );
     gpu.queue.submit([encoder.finish()]);
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
@@ -76,8 +107,12 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuErro
 ///
 /// # Errors
 /// As [`read_bytes`].
-pub fn read_image(gpu: &Gpu, texture: &wgpu::Texture) -> Result<TargetImage, GpuError> {
-    let bytes = read_bytes(gpu, texture)?;
+pub fn read_image(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    slice: Slice,
+) -> Result<TargetImage, GpuError> {
+    let bytes = read_slice(gpu, texture, slice)?;
     let format = texture.format();
     let size = aspect_bytes(format) as usize;
     let texels = bytes
@@ -85,8 +120,8 @@ pub fn read_image(gpu: &Gpu, texture: &wgpu::Texture) -> Result<TargetImage, Gpu
         .map(|texel| decode(format, texel))
         .collect();
     Ok(TargetImage {
-        width: texture.width(),
-        height: texture.height(),
+        width: (texture.width() >> slice.mip).max(1),
+        height: (texture.height() >> slice.mip).max(1),
         format: crate::Format(format),
         channels: u32::from(format.components()),
         texels,
@@ -136,6 +171,19 @@ fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
             let coded = f32::from(texel[i]) / 255.0;
             if i == 3 { coded } else { decode_srgb(coded) }
         }),
+        TextureFormat::R8Snorm | TextureFormat::Rg8Snorm | TextureFormat::Rgba8Snorm => {
+            // Both −128 and −127 stand for −1.
+            fill(&|i| (f32::from(texel[i] as i8) / 127.0).max(-1.0))
+        }
+        TextureFormat::R8Sint | TextureFormat::Rg8Sint | TextureFormat::Rgba8Sint => {
+            fill(&|i| f32::from(texel[i] as i8))
+        }
+        TextureFormat::R16Sint | TextureFormat::Rg16Sint | TextureFormat::Rgba16Sint => {
+            fill(&|i| f32::from(u16_at(i) as i16))
+        }
+        TextureFormat::R32Sint | TextureFormat::Rg32Sint | TextureFormat::Rgba32Sint => {
+            fill(&|i| u32_at(i) as i32 as f32)
+        }
         TextureFormat::R8Uint | TextureFormat::Rg8Uint | TextureFormat::Rgba8Uint => {
             fill(&|i| f32::from(texel[i]))
         }
@@ -173,7 +221,6 @@ fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
             ]
         }
         TextureFormat::Depth16Unorm => [f32::from(u16_at(0)) / 65535.0, 0.0, 0.0, 1.0],
-        // Depth24Plus can't be copied; the drivers that back it with 32-bit floats can.
         _ => [f32::from_bits(u32_at(0)), 0.0, 0.0, 1.0],
     }
 }
@@ -211,6 +258,18 @@ mod tests {
         assert_eq!(
             decode(TextureFormat::Rg16Uint, &[1, 2, 255, 255]),
             [513.0, 65535.0, 0.0, 1.0]
+        );
+        assert_eq!(
+            decode(TextureFormat::Rg8Snorm, &[0x81, 127]),
+            [-1.0, 1.0, 0.0, 1.0]
+        );
+        assert_eq!(
+            decode(TextureFormat::R8Sint, &[0xfe]),
+            [-2.0, 0.0, 0.0, 1.0]
+        );
+        assert_eq!(
+            decode(TextureFormat::R32Sint, &(-3_i32).to_le_bytes()),
+            [-3.0, 0.0, 0.0, 1.0]
         );
         let half = f16::from_f32(1.5).to_le_bytes();
         assert_eq!(decode(TextureFormat::R16Float, &half), [1.5, 0.0, 0.0, 1.0]);

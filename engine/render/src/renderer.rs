@@ -6,6 +6,7 @@ use lightbench_assets::Assets;
 use lightbench_world::{SystemTime, World, systems};
 
 use crate::compile::Compiler;
+use crate::description::Slice;
 use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
 use crate::inspect::Inspector;
@@ -50,6 +51,16 @@ pub enum RenderError {
     /// A target was asked for that the pipeline does not have, or before the first frame.
     #[error("the pipeline has no target `{0}` yet")]
     NoTarget(String),
+    /// A mip level or layer was asked for that the target does not have.
+    #[error("`{target}` has {mips} mip levels and {layers} layers, both counted from 0")]
+    NoSlice {
+        /// The target.
+        target: String,
+        /// Its mip levels.
+        mips: u32,
+        /// Its layers.
+        layers: u32,
+    },
     /// The size asked for is beyond the device.
     #[error(
         "{width} × {height} is more than this device draws; its limit is {limit} in each direction"
@@ -311,12 +322,37 @@ impl Renderer {
         }
     }
 
-    /// Any target of the last frame.
+    /// Any target of the last frame, its first layer.
+    ///
+    /// Targets may share a texture with another, and then hold what that one holds: see
+    /// [`Pipeline::keep_all_targets`].
     ///
     /// # Errors
     /// As [`Renderer::read_output`].
     pub fn read_target(&self, pipeline: &Pipeline, name: &str) -> Result<TargetImage, RenderError> {
-        Ok(read_image(&self.gpu, self.texture(pipeline, name)?)?)
+        self.read_target_slice(pipeline, name, Slice::default())
+    }
+
+    /// One mip level of one layer of a target of the last frame.
+    ///
+    /// # Errors
+    /// As [`Renderer::read_output`], and where there is no such level or layer.
+    pub fn read_target_slice(
+        &self,
+        pipeline: &Pipeline,
+        name: &str,
+        slice: Slice,
+    ) -> Result<TargetImage, RenderError> {
+        let texture = self.texture(pipeline, name)?;
+        let layers = texture.depth_or_array_layers();
+        if slice.mip >= texture.mip_level_count() || slice.layer >= layers {
+            return Err(RenderError::NoSlice {
+                target: name.to_owned(),
+                mips: texture.mip_level_count(),
+                layers,
+            });
+        }
+        Ok(read_image(&self.gpu, texture, slice)?)
     }
 
     fn texture<'a>(

@@ -36,7 +36,7 @@ pub fn measures<'a>(
 ) -> impl Iterator<Item = Measure> + 'a {
     let passes = pipeline.desc.passes.iter().zip(&pipeline.passes);
     passes.enumerate().map(|(index, (desc, pass))| {
-        let runs = pipeline.lives().needed[index] || inspector.wants(index);
+        let runs = pipeline.runs(index) || inspector.wants(index);
         match &desc.kind {
             _ if !runs => Measure::Nothing,
             PassKind::Copy { .. } | PassKind::History { .. } => Measure::Nothing,
@@ -66,7 +66,7 @@ pub fn record(
     };
     let passes = pipeline.desc.passes.iter().zip(&pipeline.passes);
     for (index, (desc, pass)) in passes.enumerate() {
-        if !pipeline.lives().needed[index] && !inspector.wants(index) {
+        if !pipeline.runs(index) && !inspector.wants(index) {
             statistics.push(PassStatistics {
                 dropped: true,
                 ..Default::default()

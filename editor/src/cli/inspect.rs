@@ -1,0 +1,285 @@
+//! `lightbench inspect`: what the targets of a frame hold after each pass.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use clap::Args;
+use lightbench::assets::Progress;
+use lightbench::assets::files::Files;
+use lightbench::assets::images::{save_exr, save_png};
+use lightbench::lab::capture::STEP;
+use lightbench::lab::colormap::ColorMap;
+use lightbench::lab::inspect::FrameInspector;
+use lightbench::render::description::Slice;
+use lightbench::render::problem::suggestion;
+use lightbench::render::{PipelineDesc, TargetImage};
+
+use super::arguments::{GpuArguments, SceneArguments, Size};
+use super::load::{self, Request, Stage};
+use super::project;
+use super::report::{self, Usage, say, warn};
+
+/// Arguments of `lightbench inspect`.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  lightbench inspect atrium --target g_normal --out normals.exr
+  lightbench inspect atrium --pass g_buffer --target hdr --channel r --range 0,4 --out emitted.png
+  lightbench inspect atrium --pixel 320,180
+  lightbench inspect my_scene.rhai --pipeline mine.rhai --find-nan
+
+An EXR holds the values as they are. A PNG shows the range from black to white, or with
+--false-colour in colours. Without --pass it is the last pass that writes the target.")]
+pub struct Arguments {
+    /// A scene's name, as in `lightbench list scenes`, or the path of a .rhai file
+    #[arg(value_name = "SCENE")]
+    scene: String,
+    /// The pipeline: a name, as in `lightbench list pipelines`, or the path of a .rhai file
+    #[arg(long, value_name = "PIPELINE", default_value = "deferred_shading")]
+    pipeline: String,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x360")]
+    size: Size,
+    /// Which frame, from 0; the scene takes 60 steps a second
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    frame: u32,
+    /// The pass after which to look, by its name or its number from 0
+    #[arg(long, value_name = "PASS")]
+    pass: Option<String>,
+    /// The target to write to a file
+    #[arg(long, value_name = "TARGET", requires = "out")]
+    target: Option<String>,
+    /// The file; it ends in .png or .exr
+    #[arg(long, value_name = "FILE", requires = "target")]
+    out: Option<PathBuf>,
+    /// A mip level of the target
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    mip: u32,
+    /// A layer of the target
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    layer: u32,
+    /// One channel alone: r, g, b or a
+    #[arg(long, value_name = "CHANNEL")]
+    channel: Option<char>,
+    /// What a PNG shows as black and as white, as in 0,1
+    #[arg(
+        long,
+        value_name = "LOW,HIGH",
+        default_value = "0,1",
+        allow_hyphen_values = true
+    )]
+    range: String,
+    /// Show one channel of a PNG in colours instead of greys
+    #[arg(long, visible_alias = "false-color")]
+    false_colour: bool,
+    /// Print what each pass did to a pixel, counted from the upper left corner
+    #[arg(long, value_name = "X,Y")]
+    pixel: Option<String>,
+    /// Name the first pass that leaves a value that is no number, or infinite
+    #[arg(long)]
+    find_nan: bool,
+    #[command(flatten)]
+    scene_arguments: SceneArguments,
+    #[command(flatten)]
+    gpu: GpuArguments,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Anything that keeps the frame from being drawn, or a pass or target that is not there.
+pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
+    let pixel = arguments.pixel.as_deref().map(pair::<u32>).transpose()?;
+    let [low, high] = pair::<f32>(&arguments.range)?;
+    if arguments.out.is_none() && pixel.is_none() && !arguments.find_nan {
+        return Err(Usage(
+            "say what to look at: --target NAME --out FILE, --pixel X,Y or --find-nan".to_owned(),
+        )
+        .into());
+    }
+    if let Some(out) = &arguments.out {
+        project::writable(out)?;
+    }
+    if let Some([x, y]) = pixel
+        && (x >= arguments.size.width || y >= arguments.size.height)
+    {
+        let Size { width, height } = arguments.size;
+        return Err(Usage(format!(
+            "--pixel {x},{y} lies outside the picture of {width} x {height}; pixels are counted from 0"
+        ))
+        .into());
+    }
+    let progress = Progress::new();
+    let request = Request {
+        scene: &arguments.scene,
+        arguments: &arguments.scene_arguments,
+        pipelines: std::slice::from_ref(&arguments.pipeline),
+        gpu: &arguments.gpu,
+    };
+    let Stage {
+        mut renderer,
+        mut scene,
+        mut pipelines,
+    } = load::stage(&mut files, &request, &progress)?;
+    let pipeline = pipelines
+        .first_mut()
+        .ok_or_else(|| anyhow!("no pipeline was compiled"))?;
+    for frame in 1..=arguments.frame {
+        let time = f64::from(frame) * STEP;
+        scene
+            .update(time, STEP)
+            .map_err(|problem| report::problems(&files, problem))?;
+    }
+    scene.refresh();
+    load::tell(&files, &mut scene);
+    let desc = pipeline.desc.clone();
+    let pass = arguments.pass.as_deref();
+    let pass = pass.map(|pass| find_pass(&desc, pass)).transpose()?;
+
+    let size = arguments.size.into();
+    let mut inspector =
+        FrameInspector::new(&mut renderer, &mut scene, pipeline, size, arguments.frame);
+    if let (Some(target), Some(out)) = (&arguments.target, &arguments.out) {
+        let pass = match pass {
+            Some(pass) => pass,
+            None => last_writer(&desc, target)?,
+        };
+        let slice = Slice {
+            mip: arguments.mip,
+            layer: arguments.layer,
+        };
+        let image = inspector.target(pass, target, slice)?;
+        let channel = arguments.channel.map(channel).transpose()?;
+        save(&image, channel, (low, high), arguments.false_colour, out)?;
+        say(out.display().to_string())?;
+    }
+    if let Some([x, y]) = pixel {
+        print_history(&mut inspector, (x, y))?;
+    }
+    if arguments.find_nan {
+        match inspector.first_invalid()? {
+            None => say("every value of every target is a finite number")?,
+            Some(found) => say(format!(
+                "the pass `{}` leaves {:?} in `{}` at {},{}; {} texels of it are no numbers",
+                found.pass, found.value, found.target, found.texel.0, found.texel.1, found.texels
+            ))?,
+        }
+    }
+    drop(inspector);
+    for warning in renderer.take_warnings() {
+        warn(warning);
+    }
+    Ok(())
+}
+
+/// Two numbers with a comma between.
+fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], Usage> {
+    let parts = text.split_once(',').and_then(|(a, b)| {
+        let (a, b) = (a.trim().parse().ok()?, b.trim().parse().ok()?);
+        Some([a, b])
+    });
+    parts.ok_or_else(|| {
+        Usage(format!(
+            "`{text}`: write two numbers with a comma, as in 3,4"
+        ))
+    })
+}
+
+fn find_pass(desc: &PipelineDesc, wanted: &str) -> Result<usize, Usage> {
+    let names = || desc.passes.iter().map(|pass| pass.name.as_str());
+    let number = wanted.parse().ok();
+    names()
+        .position(|name| name == wanted)
+        .or(number.filter(|number| *number < desc.passes.len()))
+        .ok_or_else(|| {
+            let hint = suggestion(wanted, names()).unwrap_or_else(|| {
+                format!("the passes are: {}", names().collect::<Vec<_>>().join(", "))
+            });
+            Usage(format!("`{}` has no pass `{wanted}`: {hint}", desc.name))
+        })
+}
+
+fn last_writer(desc: &PipelineDesc, target: &str) -> Result<usize, Usage> {
+    let writes = |name: &str| name == target;
+    let found = desc
+        .passes
+        .iter()
+        .rposition(|pass| lightbench::render::life::writes(pass).any(writes));
+    found.ok_or_else(|| {
+        let names = || desc.targets.iter().map(|target| target.name.as_str());
+        let hint = suggestion(target, names()).unwrap_or_else(|| {
+            format!(
+                "the targets are: {}",
+                names().collect::<Vec<_>>().join(", ")
+            )
+        });
+        Usage(format!("`{}` has no target `{target}`: {hint}", desc.name))
+    })
+}
+
+fn channel(letter: char) -> Result<usize, Usage> {
+    "rgba"
+        .find(letter)
+        .ok_or_else(|| Usage(format!("--channel {letter}: write r, g, b or a")))
+}
+
+fn save(
+    image: &TargetImage,
+    channel: Option<usize>,
+    (low, high): (f32, f32),
+    false_colour: bool,
+    path: &Path,
+) -> anyhow::Result<()> {
+    // One channel alone is grey.
+    let single = channel.or((image.channels == 1).then_some(0));
+    let picked = image.texels.iter().map(|texel| match single {
+        Some(channel) => [texel[channel], texel[channel], texel[channel], 1.0],
+        None => *texel,
+    });
+    if path.extension().is_some_and(|ending| ending == "exr") {
+        let pixels: Vec<f32> = picked.flatten().collect();
+        save_exr(path, image.width, image.height, &pixels)?;
+        return Ok(());
+    }
+    let share = |value: f32| ((value - low) / (high - low)).clamp(0.0, 1.0);
+    let byte = |value: f32| (share(value) * 255.0).round() as u8;
+    let pixels: Vec<u8> = picked
+        .flat_map(|[r, g, b, _]| {
+            let color = if false_colour {
+                ColorMap::Viridis.color(share(r))
+            } else {
+                [byte(r), byte(g), byte(b)]
+            };
+            [color[0], color[1], color[2], 255]
+        })
+        .collect();
+    save_png(path, image.width, image.height, &pixels)?;
+    Ok(())
+}
+
+/// One line a pass and target.
+fn print_history(inspector: &mut FrameInspector<'_>, pixel: (u32, u32)) -> anyhow::Result<()> {
+    let history = inspector.history(pixel)?;
+    let values = |texel: &[f32; 4], channels: u32| {
+        let shown = texel.iter().take(channels as usize);
+        let shown: Vec<String> = shown.map(|value| format!("{value:.6}")).collect();
+        shown.join(" ")
+    };
+    let widest = |lengths: &mut dyn Iterator<Item = usize>| lengths.max().unwrap_or(0);
+    let pass_width = widest(&mut history.iter().map(|value| value.pass.len()));
+    let target_width = widest(&mut history.iter().map(|value| value.target.len()));
+    for value in &history {
+        let before = values(&value.before, value.channels);
+        let after = values(&value.after, value.channels);
+        let change = if before == after {
+            format!("{after}  (unchanged)")
+        } else {
+            format!("{before}  ->  {after}")
+        };
+        say(format!(
+            "{:pass_width$}  {:target_width$}  {change}",
+            value.pass, value.target
+        ))?;
+    }
+    Ok(())
+}
