@@ -7,7 +7,7 @@ use lightbench::render::{Pipeline, Renderer, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 use lightbench_tests::gpu;
 
-/// A project with one pipeline, on an empty scene.
+/// A project with one pipeline, and a scene with six lights that hang over one another.
 struct Bench {
     renderer: Renderer,
     files: Files,
@@ -59,8 +59,8 @@ impl Bench {
             ),
         );
         let files = Files::with_project(folder.path()).unwrap();
-        let settings = Settings::new().with("case", "no_objects");
-        let scene = load_scene(&files, "hard_cases", &settings, &Progress::default());
+        let settings = Settings::new().with("lights", "6").with("range", 2.5);
+        let scene = load_scene(&files, "many_lights", &settings, &Progress::default());
         Self {
             renderer: Renderer::new(gpu(portable)),
             scene: scene.unwrap_or_else(|error| panic!("{error}")),
@@ -97,6 +97,18 @@ impl Bench {
         let result = self.renderer.read_target(pipeline, "result").unwrap();
         let values = result.texels.iter().map(|texel| texel[0]).collect();
         (values, counters.map(|m| m.counters).unwrap_or_default())
+    }
+
+    /// The first frame through the scene's camera: all channels of `result`.
+    fn lit(&mut self, size: (u32, u32)) -> Vec<[f32; 4]> {
+        let mut pipeline = self.pipeline();
+        let view = View::from_world(&self.scene.world).unwrap();
+        let (world, assets) = (&mut self.scene.world, &self.scene.assets);
+        self.renderer
+            .render(world, assets, &mut pipeline, &view, size, 0.0)
+            .unwrap();
+        let result = self.renderer.read_target(&pipeline, "result").unwrap();
+        result.texels
     }
 
     /// The first frame.
@@ -418,5 +430,73 @@ fn a_derived_pipeline_changes_another() {
     assert_eq!(
         (desc.name.as_str(), desc.title.as_str()),
         ("derived", "Derived")
+    );
+}
+
+/// Adds 1 where the surface lies inside the light's range.
+const INSIDE: &str = "#import lightbench::scene
+@group(1) @binding(0) var depth: texture_depth_2d;
+@fragment fn fragment_main(
+    @builtin(position) pixel: vec4f,
+    @location(0) @interpolate(flat) index: u32,
+) -> @location(0) vec4f {
+    let resolution = vec2f(textureDimensions(depth));
+    let texel_depth = textureLoad(depth, vec2u(pixel.xy), 0);
+    let position = scene::position_from_depth(pixel.xy, resolution, texel_depth);
+    let light = scene::lights[index];
+    return vec4f(select(0.0, 1.0, distance(position, light.position) < light.range));
+}";
+
+/// Draws depth, then each bounded light where it is.
+fn lights_body(more: &str) -> String {
+    format!(
+        "p.target(\"depth\", \"depth32float\");
+        p.target(\"result\", \"rgba16float\");
+        p.geometry(\"prepass\").depth(\"depth\").clear(0.0);
+        p.lights(\"lights\").shader(\"shaders/inside.wgsl\").bounded_only(true){more}
+            .reads(\"depth\").writes(\"result\").clear(0, 0, 0, 0).blend(\"add\")
+            .depth(\"depth\").read_only();"
+    )
+}
+
+#[test]
+fn no_channel_of_the_arrays_holds_two_lights() {
+    let size = (160, 90);
+    let all = Bench::new(&lights_body(""), &[("inside", INSIDE)]).lit(size);
+    let spread = lights_body(".arrays(4)");
+    let spread = Bench::new(&spread, &[("inside", INSIDE)]).lit(size);
+    assert!(
+        all.iter().any(|texel| texel[0] >= 2.0),
+        "the lights overlap"
+    );
+    for (all, channels) in all.iter().zip(&spread) {
+        assert!(channels.iter().all(|&count| count <= 1.0), "{channels:?}");
+        assert_eq!(channels.iter().sum::<f32>(), all[0], "no light is lost");
+    }
+}
+
+#[test]
+fn any_depth_covers_what_lies_before_and_behind_the_surface() {
+    // Without reading depth: 1 for every light whose volume covers the pixel.
+    let covers = "@fragment fn fragment_main(
+            @location(0) @interpolate(flat) index: u32,
+        ) -> @location(0) vec4f { return vec4f(f32(min(index, 0u)) + 1.0); }";
+    let body = |more: &str| lights_body(more).replace(".reads(\"depth\")", "");
+    let size = (160, 90);
+    let draw = |more: &str| Bench::new(&body(more), &[("inside", covers)]).lit(size);
+    let (tested, any) = (draw(""), draw(".any_depth(true)"));
+    // What the surface hides or ends is covered too; nothing that was covered is lost.
+    assert!(
+        tested
+            .iter()
+            .zip(&any)
+            .all(|(tested, any)| any[0] >= tested[0])
+    );
+    let sum = |texels: &[[f32; 4]]| texels.iter().map(|texel| texel[0]).sum::<f32>();
+    assert!(
+        sum(&any) > 1.05 * sum(&tested),
+        "{} {}",
+        sum(&any),
+        sum(&tested)
     );
 }
