@@ -95,7 +95,6 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
 
     totals(editor, ui, palette);
     ui.add_space(4.0);
-    systems(panel, ui);
     let slowest = panel.rows.iter().filter_map(|row| row.gpu_ms);
     let slowest = slowest.fold(0.0_f64, f64::max);
     let height = 20.0;
@@ -203,6 +202,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
             });
     });
     counters(panel, ui);
+    systems(panel, ui);
 }
 
 /// What the pipeline's shaders counted.
@@ -228,6 +228,7 @@ fn systems(panel: &PassesPanel, ui: &mut Ui) {
     if panel.systems.is_empty() {
         return;
     }
+    ui.add_space(4.0);
     let about = "CPU time of the thread that ran each, median of the last steps. Work that a \
                  system handed to other threads is not in it.";
     let title = RichText::new("Systems, CPU thread ms").small().weak();
@@ -236,15 +237,12 @@ fn systems(panel: &PassesPanel, ui: &mut Ui) {
     table.striped(true).show(ui, |ui| {
         for (name, time) in &panel.systems {
             ui.label(*name);
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                // Finer than passes: a system of a small scene takes microseconds.
-                let time = time.map_or_else(|| MISSING.to_owned(), |ms| format!("{ms:.3}"));
-                ui.label(RichText::new(time).monospace());
-            });
+            // Finer than passes: a system of a small scene takes microseconds.
+            let time = time.map_or_else(|| MISSING.to_owned(), |ms| format!("{ms:.3}"));
+            ui.label(RichText::new(time).monospace());
             ui.end_row();
         }
     });
-    ui.add_space(4.0);
 }
 
 /// The whole frame, and how its GPU time is shared out between the passes.
