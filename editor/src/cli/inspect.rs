@@ -158,7 +158,10 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     }
     if arguments.find_nan {
         match inspector.first_invalid()? {
-            None => say("every value of every target is a finite number")?,
+            None => say(
+                "every value is a finite number in the first mip level and layer of every target \
+                 with one sample a texel",
+            )?,
             Some(found) => say(format!(
                 "the pass `{}` leaves {:?} in `{}` at {},{}; {} texels of it are no numbers",
                 found.pass, found.value, found.target, found.texel.0, found.texel.1, found.texels

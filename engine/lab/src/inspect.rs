@@ -114,7 +114,8 @@ impl<'a> FrameInspector<'a> {
         Ok(history)
     }
 
-    /// The first pass that leaves a value in a target that is not a number or infinite.
+    /// The first pass that leaves a value in a target that is not a number or infinite. It looks at
+    /// the first mip level and layer, and not at targets with several samples.
     ///
     /// # Errors
     /// Where the frame can't be drawn.

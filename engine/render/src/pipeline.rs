@@ -489,7 +489,7 @@ impl Pipeline {
             .is_some_and(|last| last.wrapping_add(1) == index || last == index);
         if fresh.is_none() || !followed {
             self.history_frames = 0;
-        } else {
+        } else if self.last_frame != Some(index) {
             self.history_frames = self.history_frames.saturating_add(1);
         }
         if !followed {
