@@ -5,12 +5,12 @@ use lightbench_assets::files::Files;
 use super::state::{State, marking, stencil_mark, stencil_test};
 use super::{Compiler, FULLSCREEN_VERTEX, GEOMETRY_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{Faces, Geometry, PassDesc, PipelineDesc};
-use crate::pipeline::{GeometryPipelines, MaskPipelines, PassPipelines};
+use crate::gpu_pipelines::{GeometryPipelines, MaskPipelines, PassPipelines};
 use crate::problem::Problem;
 use crate::variant::Variant;
 
 impl Compiler {
-    /// One pipeline for each way in which the materials of a scene can be drawn.
+    /// One pipeline for each way in which the materials of the scene are drawn.
     pub(super) fn geometry(
         &mut self,
         files: &Files,
@@ -21,6 +21,10 @@ impl Compiler {
     ) -> Result<PassPipelines, Problem> {
         let mut variants = Vec::with_capacity(Variant::COUNT);
         for variant in Variant::all() {
+            if !self.variants.contains(variant) {
+                variants.push(None);
+                continue;
+            }
             // Without outputs and without holes there is nothing for a fragment stage to do.
             let outputs = !pass.colors.is_empty() || !pass.updates.is_empty();
             let fragment = pass
@@ -52,7 +56,8 @@ impl Compiler {
                 },
                 _ => state,
             };
-            variants.push(self.build(files, desc, pass, fragment, layout, &state)?);
+            let built = self.build(files, desc, pass, fragment, layout, &state)?;
+            variants.push(Some(built));
         }
         let mask = match geometry.repeat {
             Some(repeat) if repeat.stencil => Some(self.mask(files, desc, pass, layout)?),

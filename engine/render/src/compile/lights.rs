@@ -3,10 +3,10 @@
 use lightbench_assets::files::Files;
 use wgpu::{CompareFunction, Face, StencilOperation};
 
-use super::state::{Channels, DrawPipeline, State, marking, stencil_mark, stencil_test};
+use super::state::{Channels, State, marking, stencil_mark, stencil_test};
 use super::{Compiler, FULLSCREEN_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{LightStencil, Lights, PassDesc, PipelineDesc, ShaderDesc};
-use crate::pipeline::{LightPipelines, LightsPipelines, PassPipelines};
+use crate::gpu_pipelines::{DrawPipeline, LightPipelines, LightsPipelines, PassPipelines};
 use crate::problem::Problem;
 
 /// The fragment stage of pipelines that only mark stencil.

@@ -6,15 +6,6 @@ use crate::description::{
 };
 use crate::reflection::Reflection;
 
-/// A render pipeline, and whether it reads the second vertex stream.
-#[derive(Clone, Debug)]
-pub struct DrawPipeline {
-    /// The pipeline.
-    pub pipeline: wgpu::RenderPipeline,
-    /// Whether normals, texture coordinates and tangents must be bound.
-    pub attributes: bool,
-}
-
 /// Which channels of the colour targets a pipeline writes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Channels {

@@ -69,6 +69,8 @@ pub struct PipelineDesc {
     pub name: String,
     /// The file that declared it.
     pub file: Place,
+    /// Paths of that file and of all that it imports.
+    pub scripts: Vec<String>,
     /// Title for people, as in "Deferred shading".
     pub title: String,
     /// One or two sentences: what it trades and when to choose it.

@@ -14,7 +14,7 @@ use lightbench_world::{MeshId, World, WorldBounds};
 
 use crate::description::{DrawList, DrawOrder, Lights, ObjectLights, PassDesc, PassKind, Repeat};
 use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
-use crate::variant::Variant;
+use crate::variant::{Variant, Variants};
 use crate::view::View;
 use crate::volumes::{self, VolumeDraw, VolumeKind};
 use objects::Objects;
@@ -79,6 +79,8 @@ pub struct Frame {
     pub visible_objects: u32,
     /// Lights that the camera sees.
     pub visible_lights: u32,
+    /// The variants of all meshes in the lists.
+    pub variants: Variants,
     /// Rows of the objects that the camera sees.
     visible: Vec<u32>,
     order: Vec<objects::Entry>,
@@ -175,6 +177,8 @@ pub struct FrameRequest<'a> {
     pub time: f32,
     /// Frames since the renderer began.
     pub index: u32,
+    /// World to clip in the frame before; the present one where there was none.
+    pub previous: Option<Mat4>,
     /// The lists of objects that passes draw.
     pub lists: &'a [ListKey],
     /// The lists of lights that passes draw.
@@ -195,6 +199,7 @@ impl Frame {
         let volume = self.camera(request, lights.len());
         self.data.sky = sky(lights);
         self.drawn.clear();
+        self.variants = Variants::default();
         self.object_lights.clear();
         self.lists
             .resize_with(request.lists.len(), Default::default);
@@ -246,11 +251,7 @@ impl Frame {
             padding: 0,
             sky: Vec3::ZERO,
             reserved: 0,
-            previous_view_projection: if request.index == 0 {
-                view_projection
-            } else {
-                self.data.view_projection
-            },
+            previous_view_projection: request.previous.unwrap_or(view_projection),
         };
         let (focal_x, focal_y) = (projection.x_axis.x, projection.y_axis.y);
         ViewVolume {

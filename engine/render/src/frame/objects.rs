@@ -101,6 +101,7 @@ impl Frame {
         lights: (u32, u32),
     ) {
         let at = self.drawn.len() as u32;
+        self.variants.insert(entry.variant);
         self.drawn.push(DrawnObject {
             instance: entry.row,
             first_light: lights.0,

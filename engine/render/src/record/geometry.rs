@@ -2,9 +2,8 @@
 
 use super::lights::MARKS;
 use super::raster::Work;
-use crate::compile::DrawPipeline;
 use crate::frame::{MeshDraw, Step};
-use crate::pipeline::{GeometryPipelines, MaskPipelines};
+use crate::gpu_pipelines::{DrawPipeline, GeometryPipelines, MaskPipelines};
 use crate::statistics::PassStatistics;
 use crate::volumes::{Case, VolumeDraw};
 
@@ -38,7 +37,7 @@ impl Work<'_> {
 
     fn draws(
         &self,
-        variants: &[DrawPipeline],
+        variants: &[Option<DrawPipeline>],
         draws: &[MeshDraw],
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
@@ -46,13 +45,13 @@ impl Work<'_> {
         let meshes = self.recording.meshes;
         let mut bound = None;
         for run in draws {
-            let (Some(pipeline), Some(mesh)) =
+            let (Some(Some(pipeline)), Some(mesh)) =
                 (variants.get(run.variant.index()), meshes.range(run.mesh))
             else {
                 continue;
             };
             if bound != Some(run.variant) {
-                render_pass.set_pipeline(&pipeline.pipeline);
+                pipeline.set(render_pass);
                 meshes.bind(render_pass, pipeline.attributes);
                 bound = Some(run.variant);
             }

@@ -1,8 +1,7 @@
 //! Drawing light volumes.
 
 use super::raster::Work;
-use crate::compile::DrawPipeline;
-use crate::pipeline::LightsPipelines;
+use crate::gpu_pipelines::{DrawPipeline, LightsPipelines};
 use crate::statistics::PassStatistics;
 use crate::volumes::{Case, VolumeDraw};
 
@@ -39,12 +38,7 @@ impl Work<'_> {
                 self.volume(shade, run, render_pass, cost);
                 continue;
             }
-            let pipeline = match run.kind.case {
-                Case::Back => &array.back,
-                Case::Front => &array.front,
-                Case::Screen => &array.screen,
-            };
-            self.volume(pipeline, run, render_pass, cost);
+            self.volume(array.of(run.kind.case), run, render_pass, cost);
         }
     }
 
@@ -56,7 +50,7 @@ impl Work<'_> {
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
     ) {
-        render_pass.set_pipeline(&pipeline.pipeline);
+        pipeline.set(render_pass);
         if run.kind.case == Case::Screen {
             render_pass.draw(0..3, run.volumes.clone());
             cost.count(1, &run.volumes);
@@ -81,7 +75,7 @@ impl Work<'_> {
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
     ) {
-        render_pass.set_pipeline(&pipeline.pipeline);
+        pipeline.set(render_pass);
         render_pass.set_stencil_reference(reference);
         render_pass.draw(0..3, 0..1);
         cost.count(1, &(0..1));

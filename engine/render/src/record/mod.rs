@@ -5,16 +5,20 @@ mod geometry;
 mod lights;
 mod raster;
 mod transfer;
+mod warm;
 
 use std::time::Instant;
 
 use crate::description::PassKind;
 use crate::frame::Frame;
+use crate::gpu_pipelines::PassPipelines;
 use crate::inspect::Inspector;
-use crate::pipeline::{PassPipelines, Pipeline};
+use crate::pipeline::Pipeline;
 use crate::queries::{Measure, Queries};
 use crate::scene::MeshPool;
 use crate::statistics::{PassStatistics, traffic};
+
+pub use warm::{is_cold, warm};
 
 /// Colour targets that a pass may have: WebGPU's limit.
 pub const MAX_COLORS: usize = 8;
@@ -85,9 +89,10 @@ pub fn record(
             recording,
             queries,
             index,
+            clipped: false,
         };
         match (&desc.kind, &pass.pipelines) {
-            (PassKind::Compute(dispatch), PassPipelines::Compute { pipeline, .. }) => {
+            (PassKind::Compute(dispatch), PassPipelines::Compute(pipeline)) => {
                 work.compute(dispatch, pipeline, encoder, &mut cost);
             }
             (
