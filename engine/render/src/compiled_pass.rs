@@ -17,6 +17,10 @@ pub struct EngineBuffers<'a> {
     pub mesh_attributes: &'a wgpu::Buffer,
     /// Indices of all meshes.
     pub mesh_indices: &'a wgpu::Buffer,
+    /// The views of all `shadow` passes.
+    pub shadow_views: &'a wgpu::Buffer,
+    /// Of each light the first of its views.
+    pub light_shadows: &'a wgpu::Buffer,
     /// Differs where one of the buffers is another than before.
     pub revision: u64,
 }
@@ -27,6 +31,8 @@ impl EngineBuffers<'_> {
             EngineBuffer::MeshPositions => self.mesh_positions,
             EngineBuffer::MeshAttributes => self.mesh_attributes,
             EngineBuffer::MeshIndices => self.mesh_indices,
+            EngineBuffer::ShadowViews => self.shadow_views,
+            EngineBuffer::LightShadows => self.light_shadows,
         }
     }
 }

@@ -125,6 +125,22 @@ pub struct LightVolumeData {
     pub reserved: [u32; 3],
 }
 
+/// A view of a `shadow` pass; `ShadowView` in WGSL.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ShadowViewData {
+    /// World to clip.
+    pub view_projection: Mat4,
+    /// Index of the light whose view it is; the largest number for none.
+    pub light: u32,
+    /// Layer of the depth target.
+    pub layer: u32,
+    /// Near plane, metres.
+    pub near: f32,
+    /// Far plane, metres.
+    pub far: f32,
+}
+
 /// "This material has no such texture."
 pub const NO_TEXTURE: u32 = u32::MAX;
 
@@ -161,9 +177,9 @@ mod tests {
     use std::mem::{offset_of, size_of};
 
     /// Size and member offsets of a WGSL structure, by naga.
-    fn layout(name: &str) -> (u32, Vec<(String, u32)>) {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/lib/scene.wgsl");
-        let text = std::fs::read_to_string(path).unwrap();
+    fn layout(file: &str, name: &str) -> (u32, Vec<(String, u32)>) {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/lib/");
+        let text = std::fs::read_to_string(format!("{folder}{file}")).unwrap();
         let text = text
             .lines()
             .filter(|line| !line.starts_with('#'))
@@ -188,7 +204,11 @@ mod tests {
     }
 
     fn check<T>(name: &str, offsets: &[(&str, usize)]) {
-        let (span, members) = layout(name);
+        check_in::<T>("scene.wgsl", name, offsets);
+    }
+
+    fn check_in<T>(file: &str, name: &str, offsets: &[(&str, usize)]) {
+        let (span, members) = layout(file, name);
         assert_eq!(span as usize, size_of::<T>(), "size of {name}");
         for (member, offset) in offsets {
             let (_, found) = members.iter().find(|(m, _)| m == member).unwrap();
@@ -264,6 +284,16 @@ mod tests {
         check::<LightVolumeData>(
             "LightVolume",
             &[("row_z", 32), ("light", offset_of!(LightVolumeData, light))],
+        );
+        check_in::<ShadowViewData>(
+            "shadow.wgsl",
+            "ShadowView",
+            &[
+                ("light", offset_of!(ShadowViewData, light)),
+                ("layer", offset_of!(ShadowViewData, layer)),
+                ("near", offset_of!(ShadowViewData, near)),
+                ("far", offset_of!(ShadowViewData, far)),
+            ],
         );
     }
 }

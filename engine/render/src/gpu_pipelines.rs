@@ -78,6 +78,8 @@ pub enum PassPipelines {
     Geometry(GeometryPipelines),
     /// Light volumes.
     Lights(LightsPipelines),
+    /// Meshes as lights see them.
+    Shadow(GeometryPipelines),
     /// One triangle.
     Fullscreen(DrawPipeline),
     /// A dispatch.

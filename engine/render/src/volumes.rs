@@ -60,8 +60,12 @@ pub struct Volume {
 
 /// The kind of ambient lights.
 pub(crate) const AMBIENT: u32 = 3;
-const DIRECTIONAL: u32 = 2;
-const SPOT: u32 = 1;
+/// The kind of directional lights.
+pub(crate) const DIRECTIONAL: u32 = 2;
+/// The kind of spot lights.
+pub(crate) const SPOT: u32 = 1;
+/// The kind of point lights.
+pub(crate) const POINT: u32 = 0;
 
 /// Spots wider than this (full angle) are drawn as spheres: their cone would be huge and flat.
 const WIDEST_CONE: f32 = 120.0 * std::f32::consts::PI / 180.0;
@@ -116,7 +120,7 @@ pub fn is_bounded(light: &LightData) -> bool {
 }
 
 /// The full outer angle of a spot light, from what the shader keeps.
-fn outer_angle(light: &LightData) -> f32 {
+pub(crate) fn outer_angle(light: &LightData) -> f32 {
     (-light.angle_offset / light.angle_scale)
         .clamp(-1.0, 1.0)
         .acos()

@@ -19,10 +19,12 @@ const SAMPLERS: [(&str, Source); 3] = [
 
 /// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
 /// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 3] = [
+const ENGINE_BUFFERS: [(&str, EngineBuffer); 5] = [
     ("mesh_positions", EngineBuffer::MeshPositions),
     ("mesh_attributes", EngineBuffer::MeshAttributes),
     ("mesh_indices", EngineBuffer::MeshIndices),
+    ("shadow_views", EngineBuffer::ShadowViews),
+    ("light_shadows", EngineBuffer::LightShadows),
 ];
 
 /// A buffer that the engine fills.
@@ -34,6 +36,10 @@ pub enum EngineBuffer {
     MeshAttributes,
     /// Indices of all meshes.
     MeshIndices,
+    /// The views of all `shadow` passes: see `shaders/lib/shadow.wgsl`.
+    ShadowViews,
+    /// Of each light the first of its shadow views.
+    LightShadows,
 }
 
 /// Where the resource of one binding of group 1 comes from.

@@ -19,6 +19,18 @@ impl Compiler {
         geometry: &Geometry,
         layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
+        let built = self.variants_of(files, desc, pass, geometry, layout)?;
+        Ok(PassPipelines::Geometry(built))
+    }
+
+    pub(super) fn variants_of(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        geometry: &Geometry,
+        layout: &PassLayout,
+    ) -> Result<GeometryPipelines, Problem> {
         let mut variants = Vec::with_capacity(Variant::COUNT);
         for variant in Variant::all() {
             if !self.variants.contains(variant) {
@@ -63,10 +75,7 @@ impl Compiler {
             Some(repeat) if repeat.stencil => Some(self.mask(files, desc, pass, layout)?),
             _ => None,
         };
-        Ok(PassPipelines::Geometry(GeometryPipelines {
-            variants,
-            mask,
-        }))
+        Ok(GeometryPipelines { variants, mask })
     }
 
     /// What marks the pixels whose surface lies inside a light's volume.

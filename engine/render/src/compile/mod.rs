@@ -10,6 +10,7 @@ mod fullscreen;
 mod geometry;
 mod lights;
 mod mips;
+mod shadow;
 mod state;
 
 use std::collections::{BTreeSet, HashMap};
@@ -275,6 +276,7 @@ impl Compiler {
         let pipelines = match &pass.kind {
             PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, &layout),
             PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
+            PassKind::Shadow(shadow) => self.shadow(files, desc, pass, shadow, &layout),
             PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
             PassKind::Compute(_) => self.compute(files, pass, &layout),
             PassKind::Mips { target, reduction } => {

@@ -9,6 +9,7 @@ mod blend;
 mod parameter;
 mod pass;
 mod resource;
+mod shadow;
 
 pub use attachment::{
     ColorAttachment, Compare, DepthAttachment, Load, Stencil, StencilClear, StencilOperation,
@@ -20,6 +21,7 @@ pub use pass::{
     ObjectLights, PassDesc, PassKind, Read, Reduction, Repeat, ShaderDesc, Update,
 };
 pub use resource::{BufferDesc, BufferSize, Mips, Shape, Slice, TargetDesc, TargetSize};
+pub use shadow::{GivenView, Lens, Shadow, ShadowLights, ShadowViews};
 
 use crate::problem::Place;
 

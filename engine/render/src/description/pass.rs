@@ -1,6 +1,6 @@
 //! Passes: what they draw, with which shader, from what, into what.
 
-use super::{ColorAttachment, DepthAttachment, Slice};
+use super::{ColorAttachment, DepthAttachment, Shadow, Slice};
 use crate::problem::Place;
 
 /// A target or buffer that a pass's shader reads.
@@ -323,6 +323,8 @@ pub enum PassKind {
     Geometry(Geometry),
     /// Draws the volume of each light.
     Lights(Lights),
+    /// Draws the depth of what casts shadows, from the views of lights or others.
+    Shadow(Shadow),
     /// Draws one triangle over the whole target.
     Fullscreen,
     /// Runs a compute shader.
@@ -366,6 +368,7 @@ impl PassKind {
         match self {
             Self::Geometry(_) => "geometry",
             Self::Lights(_) => "lights",
+            Self::Shadow(_) => "shadow",
             Self::Fullscreen => "fullscreen",
             Self::Compute(_) => "compute",
             Self::Clear => "clear",
@@ -378,7 +381,10 @@ impl PassKind {
 
     /// Whether it draws through the rasteriser with a shader.
     pub fn rasterises(&self) -> bool {
-        matches!(self, Self::Geometry(_) | Self::Lights(_) | Self::Fullscreen)
+        matches!(
+            self,
+            Self::Geometry(_) | Self::Lights(_) | Self::Shadow(_) | Self::Fullscreen
+        )
     }
 }
 

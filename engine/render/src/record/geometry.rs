@@ -35,7 +35,7 @@ impl Work<'_> {
         }
     }
 
-    fn draws(
+    pub(super) fn draws(
         &self,
         variants: &[Option<DrawPipeline>],
         draws: &[MeshDraw],

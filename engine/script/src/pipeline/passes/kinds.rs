@@ -36,11 +36,17 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "faces(faces)",
-        "Which faces a geometry pass draws: `material` (back faces only of two-sided materials), \
-         `front`, `back` or `both`.",
+        "Which faces a geometry or shadow pass draws: `material` (back faces only of two-sided \
+         materials), `front`, `back` or `both`.",
         |open, arguments| {
             let faces = arguments.choice(0, &Faces::NAMES)?;
-            of_geometry(open, "faces", |geometry| geometry.faces = faces)
+            match &mut open.pass.kind {
+                PassKind::Shadow(shadow) => {
+                    shadow.faces = faces;
+                    Ok(())
+                }
+                _ => of_geometry(open, "faces", |geometry| geometry.faces = faces),
+            }
         },
     );
     method(
