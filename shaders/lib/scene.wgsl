@@ -31,9 +31,9 @@ struct Instance {
     world_row_y: vec4f,
     world_row_z: vec4f,
     material: u32,
-    reserved_a: u32,
-    reserved_b: u32,
-    reserved_c: u32,
+    first_index: u32,                   // of its mesh, in all meshes' indices
+    base_vertex: u32,                   // what is added to each of these indices
+    reserved: u32,
 }
 
 // One object that this frame draws.

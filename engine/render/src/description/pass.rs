@@ -196,6 +196,10 @@ pub struct Geometry {
     pub repeat: Option<Repeat>,
     /// Which faces.
     pub faces: Faces,
+    /// Draw without vertex and index buffers: the shader brings its own vertex stage, which gets as
+    /// `vertex_index` 0, 1, 2, … up to three for each triangle, and fetches the vertex from the
+    /// engine's buffers. So it knows which triangle a fragment belongs to.
+    pub pull_vertices: bool,
 }
 
 /// How a `lights` pass finds the pixels inside a volume.

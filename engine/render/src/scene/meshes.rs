@@ -123,12 +123,14 @@ impl MeshPool {
     }
 
     /// Vertex positions, the rest of the vertices, and indices, for shaders that fetch vertices
-    /// themselves; and a number that differs where the buffers are others than before.
-    pub fn buffers(&self) -> ([&wgpu::Buffer; 3], u64) {
-        (
-            [&self.positions, &self.attributes, &self.indices],
-            self.buffers,
-        )
+    /// themselves.
+    pub fn buffers(&self) -> [&wgpu::Buffer; 3] {
+        [&self.positions, &self.attributes, &self.indices]
+    }
+
+    /// A number that differs where the buffers are others than before.
+    pub fn revision(&self) -> u64 {
+        self.buffers
     }
 
     /// Uploads again at the next [`MeshPool::sync`].

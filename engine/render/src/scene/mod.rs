@@ -128,7 +128,8 @@ impl Scene {
 
     /// Copies the rows of instances and lights that changed since the last call.
     pub fn sync_world(&mut self, world: &World) {
-        self.rows.sync(world, &mut self.instances, &mut self.lights);
+        let (instances, lights) = (&mut self.instances, &mut self.lights);
+        self.rows.sync(world, &self.meshes, instances, lights);
     }
 
     /// The lights, in the order of their rows.
@@ -228,12 +229,12 @@ impl Scene {
 
     /// The buffers that passes may bind beside group 0.
     pub fn engine_buffers(&self) -> EngineBuffers<'_> {
-        let ([mesh_positions, mesh_attributes, mesh_indices], revision) = self.meshes.buffers();
+        let [mesh_positions, mesh_attributes, mesh_indices] = self.meshes.buffers();
         EngineBuffers {
             mesh_positions,
             mesh_attributes,
             mesh_indices,
-            revision,
+            revision: self.meshes.revision(),
         }
     }
 

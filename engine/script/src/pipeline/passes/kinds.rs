@@ -45,6 +45,18 @@ fn geometry(api: &mut Api) {
     );
     method(
         api,
+        "pull_vertices(on)",
+        "Draws without vertex buffers: the shader's own vertex stage gets `vertex_index` 0, 1, 2, … \
+         three for each triangle, and fetches from `mesh_indices` and `mesh_positions`.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_geometry(open, "pull_vertices", |geometry| {
+                geometry.pull_vertices = on
+            })
+        },
+    );
+    method(
+        api,
         "gather_lights(on)",
         "Whether the engine gathers, for each object, the lights that reach it. Else each object \
          gets all lights.",
