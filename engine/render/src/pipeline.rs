@@ -91,6 +91,8 @@ pub struct EngineBuffers<'a> {
     pub mesh_positions: &'a wgpu::Buffer,
     /// The rest of the vertices.
     pub mesh_attributes: &'a wgpu::Buffer,
+    /// The smooth group of each vertex.
+    pub mesh_groups: &'a wgpu::Buffer,
     /// Indices of all meshes.
     pub mesh_indices: &'a wgpu::Buffer,
     /// Differs where one of the buffers is another than before.
@@ -102,6 +104,7 @@ impl EngineBuffers<'_> {
         match which {
             EngineBuffer::MeshPositions => self.mesh_positions,
             EngineBuffer::MeshAttributes => self.mesh_attributes,
+            EngineBuffer::MeshGroups => self.mesh_groups,
             EngineBuffer::MeshIndices => self.mesh_indices,
         }
     }

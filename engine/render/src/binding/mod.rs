@@ -19,9 +19,10 @@ const SAMPLERS: [(&str, Source); 3] = [
 
 /// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
 /// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 3] = [
+const ENGINE_BUFFERS: [(&str, EngineBuffer); 4] = [
     ("mesh_positions", EngineBuffer::MeshPositions),
     ("mesh_attributes", EngineBuffer::MeshAttributes),
+    ("mesh_groups", EngineBuffer::MeshGroups),
     ("mesh_indices", EngineBuffer::MeshIndices),
 ];
 
@@ -32,6 +33,9 @@ pub enum EngineBuffer {
     MeshPositions,
     /// Normal, texture coordinates and tangent of each vertex: nine floats.
     MeshAttributes,
+    /// The smooth group of each vertex, in a byte: four vertices a word, the first in the lowest
+    /// bits. A mesh of more than 256 groups gives some of them the same number.
+    MeshGroups,
     /// Indices of all meshes.
     MeshIndices,
 }

@@ -229,13 +229,7 @@ impl Scene {
 
     /// The buffers that passes may bind beside group 0.
     pub fn engine_buffers(&self) -> EngineBuffers<'_> {
-        let [mesh_positions, mesh_attributes, mesh_indices] = self.meshes.buffers();
-        EngineBuffers {
-            mesh_positions,
-            mesh_attributes,
-            mesh_indices,
-            revision: self.meshes.revision(),
-        }
+        self.meshes.engine_buffers()
     }
 
     /// Bytes of rows uploaded since the last call.
