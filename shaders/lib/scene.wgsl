@@ -41,7 +41,7 @@ struct DrawnObject {
     instance: u32,
     first_light: u32,                   // its list in object_lights
     light_count: u32,
-    reserved: u32,
+    layer: u32,                         // which of the pass's .layers it is in, from 0
 }
 
 struct Material {

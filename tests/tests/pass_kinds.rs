@@ -475,6 +475,42 @@ fn no_channel_of_the_arrays_holds_two_lights() {
     }
 }
 
+/// Adds 1 where the line of sight meets the light's range.
+const IN_SIGHT: &str = "#import lightbench::scene
+@fragment fn fragment_main(
+    @builtin(position) pixel: vec4f,
+    @location(0) @interpolate(flat) index: u32,
+) -> @location(0) vec4f {
+    let far = scene::position_from_depth(pixel.xy, scene::frame.resolution, 0.0);
+    let eye = scene::frame.camera_position;
+    let light = scene::lights[index];
+    let away = cross(normalize(far - eye), light.position - eye);
+    return vec4f(select(0.0, 1.0, length(away) < light.range));
+}";
+
+#[test]
+fn at_any_depth_no_channel_of_the_arrays_holds_two_lights_either() {
+    let size = (160, 90);
+    let body = |more: &str| {
+        lights_body(&format!(".any_depth(true){more}")).replace(".reads(\"depth\")", "")
+    };
+    let draw = |body: &str| {
+        let mut bench = Bench::new(body, &[("inside", IN_SIGHT)]);
+        // Many small ones, so that some that are apart in space are one before the other.
+        let settings = Settings::new().with("lights", "40").with("range", 1.2);
+        let scene = load_scene(&bench.files, "many_lights", &settings, &Progress::default());
+        bench.scene = scene.unwrap();
+        bench.lit(size)
+    };
+    let (all, spread) = (draw(&body("")), draw(&body(".arrays(4)")));
+    let apart = draw(&lights_body(".arrays(4)").replace(".reads(\"depth\")", ""));
+    let most = |texels: &[[f32; 4]]| texels.iter().flatten().copied().fold(0.0, f32::max);
+    assert!(most(&apart) > 1.0, "the scene shows no difference");
+    assert_eq!(most(&spread), 1.0);
+    let sum = |texels: &[[f32; 4]]| texels.iter().map(|t| t.iter().sum::<f32>()).sum::<f32>();
+    assert!(sum(&spread) <= sum(&all) / 4.0, "none is drawn twice");
+}
+
 #[test]
 fn any_depth_covers_what_lies_before_and_behind_the_surface() {
     // Without reading depth: 1 for every light whose volume covers the pixel.

@@ -69,8 +69,8 @@ pub struct DrawnObject {
     pub first_light: u32,
     /// Length of that list.
     pub light_count: u32,
-    /// Fills the structure to 16 bytes.
-    pub reserved: u32,
+    /// Which of its pass's layers it is in.
+    pub layer: u32,
 }
 
 /// One material; `Material` in WGSL.
@@ -240,6 +240,7 @@ mod tests {
             &[
                 ("first_light", offset_of!(DrawnObject, first_light)),
                 ("light_count", offset_of!(DrawnObject, light_count)),
+                ("layer", offset_of!(DrawnObject, layer)),
             ],
         );
         check::<MaterialData>(

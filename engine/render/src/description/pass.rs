@@ -183,6 +183,9 @@ impl Faces {
     ];
 }
 
+/// The most layers that a geometry pass can spread its objects over.
+pub const MAX_LAYERS: usize = 16;
+
 /// What a geometry pass draws.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
@@ -200,6 +203,10 @@ pub struct Geometry {
     /// `vertex_index` 0, 1, 2, … up to three for each triangle, and fetches the vertex from the
     /// engine's buffers. So it knows which triangle a fragment belongs to.
     pub pull_vertices: bool,
+    /// Spread the objects over that many layers, at most [`MAX_LAYERS`], such that those that
+    /// overlap on the screen are in different ones as far as there are enough. Shaders find an
+    /// object's layer, from 0, in `drawn_objects`. 0 chooses none.
+    pub layers: u32,
 }
 
 /// How a `lights` pass finds the pixels inside a volume.
@@ -240,6 +247,10 @@ pub struct Lights {
     pub threshold: f32,
     /// Spread the lights over that many arrays of lights that do not overlap; array n writes
     /// channel n mod 4 of colour target n / 4 alone. 0 draws all lights to all channels.
+    ///
+    /// Lights do not overlap whose ranges have no point in common: the shader leaves out surfaces
+    /// outside the light's range. With `any_depth` it is the rectangles around them on the screen
+    /// that have none.
     pub arrays: u32,
     /// Leave out ambient and directional lights.
     pub bounded_only: bool,
