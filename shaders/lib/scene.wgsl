@@ -144,6 +144,12 @@ fn position_from_depth(pixel: vec2f, resolution: vec2f, depth: f32) -> vec3f {
     return world.xyz / world.w;
 }
 
+// The direction of a pixel's line of sight in view space: x and y at a distance of 1 along the view.
+fn view_direction(pixel: vec2f, resolution: vec2f) -> vec3f {
+    let ndc = vec2f(pixel.x / resolution.x * 2.0 - 1.0, 1.0 - pixel.y / resolution.y * 2.0);
+    return vec3f(ndc.x / frame.projection[0][0], ndc.y / frame.projection[1][1], -1.0);
+}
+
 // A material texture, with the gradients that the caller took in uniform control flow.
 fn sample_texture(texture: u32, uv: vec2f, ddx: vec2f, ddy: vec2f) -> vec4f {
     let layer = texture & 0xffffu;
