@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use glam::{DMat4, DVec3, DVec4};
+use lightbench::assets::files::Files;
 use lightbench::lab::reference::index_packing::Capacity;
 use lightbench::render::{Pipeline, Renderer, TargetImage};
 use lightbench::script::Settings;
@@ -273,6 +274,74 @@ fn pixels_are_marked_where_more_lights_reach_them_than_they_have_room_for() {
                 assert_eq!(counts.of("lights_beyond_numbers"), 0);
             }
         }
+    }
+}
+
+/// Must-fail twins: one mistake, and pixels are wrong without being marked, or marked without being
+/// wrong.
+#[test]
+fn mistakes_in_numbers_counts_and_reach_are_caught() {
+    let full = "accumulation=rgba32float";
+    let mut studio = Studio::new("many_lights", &settings(&["lights=90", "range=2"]));
+    let forward = studio.hdr("forward_single_pass", &settings(&[full]), SIZE);
+    let faults = |studio: &mut Studio| {
+        let texts = settings(&[full, "lights_per_pixel=4"]);
+        let (pipeline, _) = studio.draw_whole("light_indexed_forward", &texts, SIZE);
+        let depth = read(studio, &pipeline, "depth");
+        let exact = Exact::count(&studio.renderer, &depth, At::Depth);
+        let marked = read(studio, &pipeline, "over_capacity");
+        let found = read(studio, &pipeline, "hdr");
+        let fault = |index: &usize| {
+            let is_marked = marked.texels[*index][0] > 0.0;
+            let (expected, found) = (forward.texels[*index], found.texels[*index]);
+            let brightest = expected[..3].iter().copied().fold(1e-3, f32::max);
+            let wrong = (0..3).any(|c| (expected[c] - found[c]).abs() > 1e-3 * brightest);
+            (wrong && !is_marked)
+                || (is_marked && exact.most[*index] <= 4)
+                || (!is_marked && exact.least[*index] > 4)
+        };
+        (0..marked.texels.len()).filter(fault).count()
+    };
+    assert_eq!(faults(&mut studio), 0);
+    for (path, from, to) in [
+        (
+            "scripts/pipelines/parts/light_indices.rhai",
+            "0.251",
+            "0.26",
+        ),
+        (
+            "shaders/lib/index_packing.wgsl",
+            "bits.y << 2u",
+            "bits.y << 3u",
+        ),
+        (
+            "shaders/lib/culling.wgsl",
+            "distance_squared >= light.range",
+            "distance_squared >= 0.5 * light.range",
+        ),
+        (
+            "shaders/lib/pixel_lights.wgsl",
+            "reaching > found",
+            "reaching > found + 1u",
+        ),
+        (
+            "shaders/light_indexed/number_lights.wgsl",
+            "& (bit - 1u)",
+            "& bit",
+        ),
+        (
+            "shaders/light_indexed/pack_bits.wgsl",
+            "out.count = 1.0",
+            "out.count = 2.0",
+        ),
+    ] {
+        let text = Files::shipped().read_text(path).unwrap();
+        assert!(text.contains(from), "{path} has no `{from}`");
+        let (_folder, files) = project(&[(path, &text.replace(from, to))]);
+        studio.files = files;
+        let found = faults(&mut studio);
+        println!("`{to}`: {found} pixels");
+        assert!(found > 50, "`{to}` went unnoticed");
     }
 }
 

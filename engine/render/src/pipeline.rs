@@ -108,6 +108,27 @@ impl EngineBuffers<'_> {
             EngineBuffer::MeshIndices => self.mesh_indices,
         }
     }
+
+    /// Says what of the scene is too large for shaders that bind `wanted`, if anything is. `most` is
+    /// what the device binds at once, bytes.
+    pub fn too_large(
+        &self,
+        wanted: impl Iterator<Item = EngineBuffer>,
+        most: u64,
+    ) -> Option<String> {
+        let buffers = wanted.map(|which| (which, self.get(which).size()));
+        let (which, bytes) = buffers.max_by_key(|(_, bytes)| *bytes)?;
+        (bytes > most).then(|| {
+            format!(
+                "the scene's meshes have {} MiB of {}, and shaders of this pipeline fetch them from \
+                 one buffer, of which this device binds {} MiB. Use fewer or smaller meshes, or a \
+                 pipeline that does not fetch vertices",
+                bytes >> 20,
+                which.in_words(),
+                most >> 20
+            )
+        })
+    }
 }
 
 /// A pass, ready to draw.
@@ -391,6 +412,15 @@ impl Pipeline {
     /// The targets of the last frame.
     pub fn targets(&self) -> Option<&Targets> {
         self.targets.as_ref()
+    }
+
+    /// The buffers of the engine that its shaders bind.
+    pub fn engine_buffers(&self) -> impl Iterator<Item = EngineBuffer> + '_ {
+        let sources = self.passes.iter().flat_map(|pass| &pass.sources);
+        sources.filter_map(|(_, source)| match source {
+            Source::Engine(which) => Some(*which),
+            _ => None,
+        })
     }
 
     /// Which passes run: the others' results reach neither the picture nor a counter.

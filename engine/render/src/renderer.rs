@@ -166,6 +166,10 @@ impl Renderer {
         let started = Instant::now();
         let lights = self.scene.lights().len() as u32;
         let engine = self.scene.engine_buffers();
+        let most = self.gpu.device.limits().max_storage_buffer_binding_size;
+        if let Some(problem) = engine.too_large(pipeline.engine_buffers(), most) {
+            return Err(RenderError::Scene(problem));
+        }
         let numbers = (self.serial, self.index);
         let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights, numbers);
         let target_bytes = targets.bytes();

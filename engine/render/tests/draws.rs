@@ -5,7 +5,9 @@ mod support;
 
 use glam::Vec3;
 use lightbench_assets::procedural;
+use lightbench_render::binding::EngineBuffer;
 use lightbench_render::description::{DrawOrder, PassKind};
+use lightbench_render::pipeline::EngineBuffers;
 use lightbench_render::{TargetImage, View};
 use lightbench_world::{Light, LightKind, Transform};
 use support::{Bench, deferred, forward, gpu};
@@ -318,4 +320,37 @@ fn objects_that_overlap_on_the_screen_are_in_different_layers() {
     ] {
         assert_eq!(layers(&mut bench, order), expected, "{order:?}");
     }
+}
+
+#[test]
+fn meshes_that_no_shader_can_bind_at_once_are_refused_in_words() {
+    let gpu = gpu(false);
+    let buffer = |size| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage: wgpu::BufferUsages::STORAGE,
+            mapped_at_creation: false,
+        })
+    };
+    let (small, large) = (buffer(4), buffer(3 << 20));
+    let engine = EngineBuffers {
+        mesh_positions: &small,
+        mesh_attributes: &large,
+        mesh_groups: &small,
+        mesh_indices: &small,
+        revision: 1,
+    };
+    use EngineBuffer::{MeshAttributes, MeshIndices, MeshPositions};
+    let refused = |wanted: &[EngineBuffer], most| engine.too_large(wanted.iter().copied(), most);
+    assert_eq!(refused(&[MeshPositions, MeshAttributes], 3 << 20), None);
+    assert_eq!(refused(&[MeshPositions, MeshIndices], 1 << 20), None);
+    assert_eq!(refused(&[], 0), None);
+    let message = refused(&[MeshPositions, MeshAttributes], 2 << 20).unwrap();
+    assert!(
+        message.starts_with(
+            "the scene's meshes have 3 MiB of normals, texture coordinates and tangents"
+        ) && message.contains("binds 2 MiB"),
+        "{message}"
+    );
 }

@@ -40,6 +40,18 @@ pub enum EngineBuffer {
     MeshIndices,
 }
 
+impl EngineBuffer {
+    /// For messages.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::MeshPositions => "vertex positions",
+            Self::MeshAttributes => "normals, texture coordinates and tangents",
+            Self::MeshGroups => "smooth groups",
+            Self::MeshIndices => "indices",
+        }
+    }
+}
+
 /// Where the resource of one binding of group 1 comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {

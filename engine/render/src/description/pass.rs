@@ -435,4 +435,17 @@ impl PassDesc {
             blend_constant: [0.0; 4],
         }
     }
+
+    /// For passes that spread lights over arrays, what [`unplaced_lights`] counts, for people.
+    ///
+    /// [`unplaced_lights`]: crate::PassStatistics::unplaced_lights
+    pub fn unplaced_in_words(&self) -> Option<String> {
+        match &self.kind {
+            PassKind::Lights(lights) if lights.arrays > 0 => Some(format!(
+                "Lights that no array of `{}` had room for",
+                self.name
+            )),
+            _ => None,
+        }
+    }
 }
