@@ -51,8 +51,12 @@ pub struct InstanceData {
     pub world_rows: [[f32; 4]; 3],
     /// Index in the material buffer.
     pub material: u32,
+    /// Where the indices of its mesh begin among those of all meshes.
+    pub first_index: u32,
+    /// What is added to each of these indices.
+    pub base_vertex: u32,
     /// Fills the structure to 16 bytes.
-    pub reserved: [u32; 3],
+    pub reserved: u32,
 }
 
 /// One object that a frame draws; `DrawnObject` in WGSL.
@@ -65,8 +69,8 @@ pub struct DrawnObject {
     pub first_light: u32,
     /// Length of that list.
     pub light_count: u32,
-    /// Fills the structure to 16 bytes.
-    pub reserved: u32,
+    /// Which of its pass's layers it is in.
+    pub layer: u32,
 }
 
 /// One material; `Material` in WGSL.
@@ -247,6 +251,8 @@ mod tests {
             &[
                 ("world_row_y", 16),
                 ("material", offset_of!(InstanceData, material)),
+                ("first_index", offset_of!(InstanceData, first_index)),
+                ("base_vertex", offset_of!(InstanceData, base_vertex)),
             ],
         );
         check::<DrawnObject>(
@@ -254,6 +260,7 @@ mod tests {
             &[
                 ("first_light", offset_of!(DrawnObject, first_light)),
                 ("light_count", offset_of!(DrawnObject, light_count)),
+                ("layer", offset_of!(DrawnObject, layer)),
             ],
         );
         check::<MaterialData>(

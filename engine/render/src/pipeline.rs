@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::binding::{EngineBuffer, Source};
 use crate::compiled_pass::{CompiledPass, EngineBuffers};
 use crate::description::{Amount, Dispatch, Lights, PassKind, PipelineDesc};
 use crate::frame::{ListKey, ShadowKey};
@@ -117,6 +118,15 @@ impl Pipeline {
     /// import.
     pub fn files(&self) -> &BTreeSet<String> {
         &self.files
+    }
+
+    /// The buffers of the engine that its shaders bind.
+    pub fn engine_buffers(&self) -> impl Iterator<Item = EngineBuffer> + '_ {
+        let sources = self.passes.iter().flat_map(|pass| &pass.sources);
+        sources.filter_map(|(_, source)| match source {
+            Source::Engine(which) => Some(*which),
+            _ => None,
+        })
     }
 
     /// Which passes run: the others' results reach neither the picture nor a counter.

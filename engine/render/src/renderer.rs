@@ -318,6 +318,10 @@ impl Renderer {
         let lights = self.scene.lights().len() as u32;
         self.scene.upload_views(&self.frame);
         let engine = self.scene.engine_buffers();
+        let most = self.gpu.device.limits().max_storage_buffer_binding_size;
+        if let Some(problem) = engine.too_large(pipeline.engine_buffers(), most) {
+            return Err(RenderError::Scene(problem));
+        }
         let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights);
         self.statistics.target_bytes = targets.bytes();
         self.statistics.saved_bytes = targets.saved_bytes;

@@ -245,8 +245,17 @@ impl Compiler {
             let loaded = self
                 .load(files, &shader.path, &[], &shader.defines)
                 .map_err(one)?;
-            sources = bind(desc, pass, &loaded.shader, &loaded.reflection)?;
-            parameters = loaded.reflection.parameters.clone();
+            let mut reflection = loaded.reflection.clone();
+            // Alpha-tested materials may ask for more.
+            if matches!(pass.kind, PassKind::Geometry(_)) {
+                let tested = self
+                    .load(files, &shader.path, &["ALPHA_TEST"], &shader.defines)
+                    .map_err(one)?;
+                reflection.add_bindings(&tested.reflection);
+            }
+            let loaded = &self.shaders[&(shader.path.clone(), Vec::new(), shader.defines.clone())];
+            sources = bind(desc, pass, &loaded.shader, &reflection)?;
+            parameters = reflection.parameters;
         }
 
         let target_layout = target_layout(&self.gpu, &sources, desc, pass);

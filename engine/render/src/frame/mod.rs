@@ -3,6 +3,7 @@
 //! Flat arrays in the layout that the GPU reads, filled again each frame without allocation once
 //! they have their size. Passes see the frame and never the world.
 
+mod layers;
 mod lights;
 mod object_lights;
 mod objects;
@@ -102,8 +103,10 @@ pub struct Frame {
     kinds: Vec<Chosen>,
     /// Where the lists of all lights and of ambient ones begin and how long they are, once made.
     shared_lights: [Option<(u32, u32)>; 2],
-    /// For each array of lights, the spheres of those in it.
-    arrays: Vec<Vec<(Vec3, f32)>>,
+    /// For each array of lights, what those in it take up.
+    arrays: Vec<Vec<lights::Place>>,
+    /// Objects and their rectangles, nearest first, while layers are chosen.
+    layered: Vec<layers::Layered>,
 }
 
 /// What a `geometry` pass draws.
@@ -158,6 +161,8 @@ pub struct ListKey {
     pub lights: ObjectLights,
     /// Once for each group of lights.
     pub repeat: Option<Repeat>,
+    /// Over how many layers; 0: none are chosen.
+    pub layers: u32,
 }
 
 impl ListKey {
@@ -169,6 +174,7 @@ impl ListKey {
                 order: geometry.order,
                 lights: geometry.lights,
                 repeat: geometry.repeat,
+                layers: geometry.layers,
             }),
             _ => None,
         }

@@ -26,12 +26,15 @@ pub(super) struct Entry {
     pub variant: Variant,
     pub mesh: MeshId,
     pub row: u32,
+    /// Chosen after the order.
+    pub layer: u32,
 }
 
 impl Frame {
     /// Fills one list.
     pub(super) fn objects(&mut self, index: usize, key: &ListKey, objects: &Objects<'_>) {
         self.sort(key, objects);
+        self.choose_layers(key.layers, objects);
         if key.list == DrawList::Opaque || key.list == DrawList::All {
             self.visible_objects = self.visible_objects.max(self.order.len() as u32);
         }
@@ -100,6 +103,7 @@ impl Frame {
                 variant: Variant::new(traits.two_sided, traits.alpha_test, mirrored),
                 mesh: r.mesh[index],
                 row,
+                layer: 0,
             });
         }
     }
@@ -119,7 +123,7 @@ impl Frame {
             instance: entry.row,
             first_light: lights.0,
             light_count: lights.1,
-            reserved: 0,
+            layer: entry.layer,
         });
         let open = draws.len() > first;
         match draws.last_mut() {
@@ -142,7 +146,7 @@ impl Frame {
 
 /// A number that grows in the order of drawing: with the distance of the bounds' centre along the
 /// view, or against it.
-fn distance(order: DrawOrder, objects: &Objects<'_>, row: usize) -> u32 {
+pub(super) fn distance(order: DrawOrder, objects: &Objects<'_>, row: usize) -> u32 {
     if order == DrawOrder::State {
         return 0;
     }

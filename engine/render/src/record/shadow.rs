@@ -25,7 +25,7 @@ impl Work<'_> {
             let offset = self.recording.view_offset(view.view);
             self.bind_groups(offset, &mut render_pass);
             let draws = &list.draws[view.draws.clone()];
-            self.draws(&pipelines.variants, draws, &mut render_pass, cost);
+            self.draws(pipelines, draws, &mut render_pass, cost);
         }
     }
 

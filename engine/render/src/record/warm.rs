@@ -147,10 +147,15 @@ fn mesh<'a>(
 ) -> Option<(&'a DrawPipeline, Triangle)> {
     let pipeline = pipelines.variants.get(run.variant.index())?.as_ref()?;
     let mesh = meshes.range(run.mesh)?;
-    let triangle = Triangle::Indexed {
-        first_index: mesh.indices.start,
-        base_vertex: mesh.base_vertex,
-        instance: run.objects.start,
+    let instance = run.objects.start;
+    let triangle = if pipelines.pull_vertices {
+        Triangle::Screen { instance }
+    } else {
+        Triangle::Indexed {
+            first_index: mesh.indices.start,
+            base_vertex: mesh.base_vertex,
+            instance,
+        }
     };
     Some((pipeline, triangle))
 }

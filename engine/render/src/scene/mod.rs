@@ -9,7 +9,7 @@ use lightbench_assets::Assets;
 use lightbench_world::World;
 
 pub use buffer::RowBuffer;
-pub use meshes::{MeshPool, MeshRange, Shape};
+pub use meshes::{MeshBuffers, MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
 use crate::compiled_pass::EngineBuffers;
@@ -133,7 +133,8 @@ impl Scene {
 
     /// Copies the rows of instances and lights that changed since the last call.
     pub fn sync_world(&mut self, world: &World) {
-        self.rows.sync(world, &mut self.instances, &mut self.lights);
+        let (instances, lights) = (&mut self.instances, &mut self.lights);
+        self.rows.sync(world, &self.meshes, instances, lights);
     }
 
     /// The lights, in the order of their rows.
@@ -263,15 +264,12 @@ impl Scene {
 
     /// The buffers that passes may bind beside group 0.
     pub fn engine_buffers(&self) -> EngineBuffers<'_> {
-        let ([mesh_positions, mesh_attributes, mesh_indices], revision) = self.meshes.buffers();
         EngineBuffers {
-            mesh_positions,
-            mesh_attributes,
-            mesh_indices,
+            meshes: self.meshes.buffers(),
             shadow_views: self.shadow_views.buffer(),
             light_shadows: self.light_shadows.buffer(),
             // Each of the two numbers only grows.
-            revision: revision + self.shadow_buffers,
+            revision: self.meshes.revision() + self.shadow_buffers,
         }
     }
 
