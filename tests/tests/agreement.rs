@@ -305,7 +305,7 @@ fn on_the_cornell_box() {
 /// Pipelines with room for few lights a pixel, both ways of packing, on scenes that need no more.
 #[test]
 fn within_their_capacity_nothing_is_lost() {
-    const LIMITED: [(&str, Surfaces, &[&str]); 8] = [
+    const LIMITED: [(&str, Surfaces, &[&str]); 10] = [
         ("forward_single_pass", Surfaces::Exact, &[]),
         ("deferred_shading", Surfaces::GBuffer, &[]),
         (
@@ -322,6 +322,16 @@ fn within_their_capacity_nothing_is_lost() {
             "light_indexed_forward",
             Surfaces::Exact,
             &["packing=arrays", "lights_per_pixel=8"],
+        ),
+        (
+            "light_indexed_forward",
+            Surfaces::Exact,
+            &["transparency=forward"],
+        ),
+        (
+            "light_indexed_deferred",
+            Surfaces::GBuffer,
+            &["transparency=forward"],
         ),
         (
             "light_indexed_deferred",
@@ -344,6 +354,7 @@ fn within_their_capacity_nothing_is_lost() {
         ("many_lights", &["lights=256", "range=0.8"]),
         ("cornell_box", &["lamps=2"]),
         ("atrium", &["lights=6"]),
+        ("hard_cases", &["case=panes"]),
     ] {
         for portable in [false, true] {
             agree_among(&LIMITED, scene, texts, portable, Room::Enough);
