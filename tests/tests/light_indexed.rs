@@ -1,5 +1,5 @@
-//! Light indexing: numbers survive blending, channels hold one light each, and every pixel that lost
-//! a light says so.
+//! Light indexing: numbers survive blending, channels hold one light each, and every pixel that
+//! lost a light says so.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DMat4, DVec3, DVec4};
@@ -14,7 +14,8 @@ const PIPELINES: [&str; 2] = ["light_indexed_forward", "light_indexed_deferred"]
 const POINT: u32 = 0;
 const SPOT: u32 = 1;
 
-// --- Packing ---------------------------------------------------------------------------------------
+// --- Packing
+// ---------------------------------------------------------------------------------------
 
 /// The hash of the shader below (O'Neill 2014, PCG, "RXS M XS 32").
 fn hash(x: u32) -> u32 {
@@ -158,7 +159,8 @@ fn one_number_more_than_there_is_room_for_corrupts() {
     }
 }
 
-// --- What was lost is marked ---------------------------------------------------------------------------
+// --- What was lost is marked
+// ---------------------------------------------------------------------------
 
 /// Lights that reach each pixel, counted here.
 struct Exact {
@@ -347,7 +349,8 @@ fn mistakes_in_numbers_counts_and_reach_are_caught() {
     }
 }
 
-/// A pane of glass before a row of lights, and far behind them a wall that most of them do not reach.
+/// A pane of glass before a row of lights, and far behind them a wall that most of them do not
+/// reach.
 const BEHIND_GLASS: &str = "
 let wall = material(\"wall\").color(rgb(0.5, 0.5, 0.5));
 spawn(\"wall\").mesh(plane(60, 60)).material(wall).at(0, 0, -30).turn(90, 0, 0);
@@ -511,7 +514,8 @@ fn a_channel_holds_one_light_and_it_reaches_the_pixel() {
     }
 }
 
-// --- Anti-aliasing ------------------------------------------------------------------------------------
+// --- Anti-aliasing
+// ------------------------------------------------------------------------------------
 
 /// Forward shading with four samples a pixel.
 const FORWARD_MSAA: &str = "
