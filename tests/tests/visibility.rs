@@ -5,7 +5,7 @@
 use glam::{DMat4, DVec3, DVec4};
 use lightbench::lab::reference::triangle::Triangle;
 use lightbench::render::TargetImage;
-use lightbench::script::Settings;
+use lightbench::script::{Settings, load_pipeline};
 use lightbench_tests::{Studio, gpu, hard_shapes, project, settings};
 
 const SIZE: (u32, u32) = (320, 180);
@@ -20,6 +20,75 @@ fn mean_difference(a: &TargetImage, b: &TargetImage) -> f64 {
     let (a, b) = (values(a), values(b));
     let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
     differences.sum::<f64>() / a.iter().sum::<f64>()
+}
+
+/// Depth by vertex buffers; then a pass that fetches the same vertices and passes where its depth
+/// is equal.
+const PULLING: &str = "
+let p = pipeline(\"Pulling\");
+p.target(\"depth\", \"depth32float\");
+p.target(\"pulled\", \"r32float\");
+p.target(\"output\", \"rgba8unorm\");
+p.geometry(\"prepass\").depth(\"depth\").clear(0.0);
+p.geometry(\"pull\").shader(\"shaders/pulled.wgsl\").pull_vertices(true)
+    .writes(\"pulled\").clear(0, 0, 0, 0)
+    .depth(\"depth\").test(\"equal\").read_only();
+p.fullscreen(\"show\").shader(\"shaders/show.wgsl\").reads(\"pulled\").writes(\"output\");
+p.show(\"output\");
+p";
+const PULLED: &str = "#import lightbench::scene
+#import lightbench::mesh
+@vertex fn vertex_main(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) drawn: u32,
+) -> @builtin(position) @invariant vec4f {
+    let instance = scene::instances[scene::drawn_objects[drawn].instance];
+    let position = mesh::position_of(mesh::vertex_at(instance, corner));
+    return scene::clip_position(scene::world_position(instance, position));
+}
+@fragment fn fragment_main() -> @location(0) f32 { return 1.0; }";
+const SHOW: &str = "@group(1) @binding(0) var pulled: texture_2d<f32>;
+@fragment fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    return textureLoad(pulled, vec2u(pixel.xy), 0);
+}";
+
+#[test]
+fn pulled_vertices_land_where_indexed_ones_do() {
+    let mut studio = Studio::new("many_lights", &Settings::new());
+    let (_folder, files) = project(&[
+        ("scripts/pipelines/pulling.rhai", PULLING),
+        ("shaders/pulled.wgsl", PULLED),
+        ("shaders/show.wgsl", SHOW),
+    ]);
+    studio.files = files;
+    let (pipeline, _) = studio.draw_whole("pulling", &Settings::new(), SIZE);
+    let read = |name| studio.renderer.read_target(&pipeline, name).unwrap().texels;
+    let (pulled, depth) = (read("pulled"), read("depth"));
+    assert!(depth.iter().any(|texel| texel[0] > 0.0));
+    for (index, (pulled, depth)) in pulled.iter().zip(&depth).enumerate() {
+        assert_eq!(pulled[0] == 1.0, depth[0] > 0.0, "pixel {index}");
+    }
+}
+
+#[test]
+fn a_pass_that_pulls_vertices_needs_a_vertex_stage_that_fetches_them() {
+    let fragment_only = "@fragment fn fragment_main() -> @location(0) f32 { return 1.0; }";
+    let (_folder, files) = project(&[
+        ("scripts/pipelines/pulling.rhai", PULLING),
+        ("shaders/pulled.wgsl", fragment_only),
+        ("shaders/show.wgsl", SHOW),
+    ]);
+    let studio = Studio::new("hard_cases", &settings(&["case=no_objects"]));
+    let desc = load_pipeline(&files, "pulling", &Settings::new()).unwrap();
+    let problems = studio
+        .renderer
+        .compiler()
+        .compile(&files, &desc)
+        .unwrap_err();
+    assert_eq!(
+        problems.0[0].message,
+        "`pull` pulls its vertices, but `shaders/pulled.wgsl` has no vertex stage that fetches them"
+    );
 }
 
 #[test]
