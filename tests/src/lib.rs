@@ -5,6 +5,8 @@
 // A test stops where something is wrong; there is nobody to hand an error to.
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc)]
 
+pub mod compare;
+
 use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
 use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, View};

@@ -5,6 +5,7 @@
 use std::f32::consts::PI;
 
 use lightbench::render::TargetImage;
+use lightbench_tests::compare::mean_difference;
 use lightbench_tests::{Counts, Studio, gpu, hard_shapes, project, settings};
 
 const PIPELINE: &str = "inferred_lighting";
@@ -275,15 +276,6 @@ fn pictures_smaller_than_a_pattern_draw() {
             }
         }
     }
-}
-
-/// The mean of the differences, relative to the mean of the light.
-fn mean_difference(a: &TargetImage, b: &TargetImage) -> f64 {
-    let sum = |of: &dyn Fn(usize, usize) -> f32| -> f64 {
-        let all = (0..a.texels.len()).flat_map(|i| (0..3).map(move |c| (i, c)));
-        all.map(|(i, c)| f64::from(of(i, c))).sum()
-    };
-    sum(&|i, c| (a.texels[i][c] - b.texels[i][c]).abs()) / sum(&|i, c| a.texels[i][c])
 }
 
 /// Half the width and height lose detail of normals and highlights; the filter must lose less than

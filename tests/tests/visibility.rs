@@ -4,23 +4,12 @@
 
 use glam::{DMat4, DVec3, DVec4};
 use lightbench::lab::reference::triangle::Triangle;
-use lightbench::render::TargetImage;
 use lightbench::script::{Settings, load_pipeline};
+use lightbench_tests::compare::mean_difference;
 use lightbench_tests::{Studio, gpu, hard_shapes, project, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 const FULL: &str = "accumulation=rgba32float";
-
-/// The mean of the differences, relative to the mean of the light.
-fn mean_difference(a: &TargetImage, b: &TargetImage) -> f64 {
-    let values = |image: &TargetImage| -> Vec<f64> {
-        let texels = image.texels.iter().flat_map(|texel| &texel[..3]);
-        texels.map(|value| f64::from(*value)).collect()
-    };
-    let (a, b) = (values(a), values(b));
-    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
-    differences.sum::<f64>() / a.iter().sum::<f64>()
-}
 
 /// Depth by vertex buffers; then a pass that fetches the same vertices and passes where its depth
 /// is equal.

@@ -9,6 +9,7 @@ mod attachments;
 pub mod binding;
 pub mod compile;
 pub mod description;
+pub mod engine_buffers;
 pub mod fallback;
 pub mod format;
 pub mod frame;

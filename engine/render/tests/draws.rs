@@ -7,7 +7,7 @@ use glam::Vec3;
 use lightbench_assets::procedural;
 use lightbench_render::binding::EngineBuffer;
 use lightbench_render::description::{DrawOrder, PassKind};
-use lightbench_render::pipeline::EngineBuffers;
+use lightbench_render::engine_buffers::EngineBuffers;
 use lightbench_render::{TargetImage, View};
 use lightbench_world::{Light, LightKind, Transform};
 use support::{Bench, deferred, forward, gpu};

@@ -8,9 +8,9 @@ use std::collections::HashMap;
 use lightbench_assets::{Assets, Mesh};
 use lightbench_world::MeshId;
 
+use crate::engine_buffers::EngineBuffers;
 use crate::gpu::Gpu;
 use crate::gpu_data::VertexAttributes;
-use crate::pipeline::EngineBuffers;
 use crate::volumes;
 
 /// Where a mesh lies in the buffers.

@@ -12,13 +12,13 @@ pub use buffer::RowBuffer;
 pub use meshes::{MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
+use crate::engine_buffers::EngineBuffers;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::gpu_data::{
     DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, MaterialData, NO_TEXTURE,
 };
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
-use crate::pipeline::EngineBuffers;
 use rows::SceneRows;
 use textures::TexturePool;
 
