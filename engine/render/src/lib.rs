@@ -10,6 +10,7 @@ pub mod binding;
 pub mod compile;
 pub mod compiled_pass;
 pub mod description;
+pub mod engine_buffers;
 pub mod fallback;
 pub mod format;
 pub mod frame;

@@ -12,7 +12,7 @@ pub use buffer::RowBuffer;
 pub use meshes::{MeshBuffers, MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
-use crate::compiled_pass::EngineBuffers;
+use crate::engine_buffers::EngineBuffers;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::gpu_data::{
