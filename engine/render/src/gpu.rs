@@ -93,7 +93,7 @@ pub struct Gpu {
 }
 
 /// Optional features, and what is lost without each.
-const WANTED: [(Features, &str); 7] = [
+const WANTED: [(Features, &str); 8] = [
     (
         Features::TIMESTAMP_QUERY,
         "timestamp queries: no GPU time per pass",
@@ -111,6 +111,10 @@ const WANTED: [(Features, &str); 7] = [
         "blending of 32-bit floats: light is accumulated in 16 bits",
     ),
     (Features::FLOAT32_FILTERABLE, "filtering of 32-bit floats"),
+    (
+        Features::DEPTH_CLIP_CONTROL,
+        "clamping of depth: lights are not confined to clip volumes that the far plane cuts",
+    ),
     (
         Features::RG11B10UFLOAT_RENDERABLE,
         "rendering to rg11b10ufloat",
@@ -313,6 +317,13 @@ impl Gpu {
             .error
             .take()
             .map_or(Ok(()), |error| Err(GpuError::Driver(error)))
+    }
+
+    /// Whether the device can clamp depth instead of cutting faces off at the near and far plane.
+    pub fn clamps_depth(&self) -> bool {
+        self.device
+            .features()
+            .contains(Features::DEPTH_CLIP_CONTROL)
     }
 
     /// Whether passes can be timed on the device.

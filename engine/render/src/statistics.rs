@@ -53,6 +53,8 @@ pub struct FrameStatistics {
     pub objects: u32,
     /// Lights drawn.
     pub lights: u32,
+    /// Lights with a clip volume that shine beyond it, since no pass of the pipeline confines them.
+    pub unconfined_lights: u32,
     /// Bytes of scene rows that changed and were uploaded.
     pub uploaded_bytes: u64,
     /// Memory of all targets and buffers of the pipeline.

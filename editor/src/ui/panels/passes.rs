@@ -67,6 +67,11 @@ impl PassesPanel {
         self.counters.extend(passes.filter_map(|(pass, cost)| {
             Some((pass.unplaced_in_words()?, Some(cost.unplaced_lights)))
         }));
+        if statistics.unconfined_lights > 0 {
+            let about = "Lights that shine beyond their clip volumes".to_owned();
+            self.counters
+                .push((about, Some(statistics.unconfined_lights)));
+        }
         for (index, pass) in pipeline.desc.passes.iter().enumerate() {
             let times = editor.timings.passes.get(index);
             self.rows.push(Row {

@@ -21,13 +21,15 @@ pub struct MeshRange {
     pub base_vertex: i32,
 }
 
-/// The unit shapes of light volumes.
+/// The shapes of light volumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
     /// A sphere that encloses the unit sphere.
     Sphere,
     /// A cone with its apex at the origin, along −z, of length 1 and base radius 1.
     Cone,
+    /// A mesh of the scene.
+    Mesh(MeshId),
 }
 
 /// The buffers of all meshes.
@@ -176,9 +178,13 @@ impl MeshPool {
         self.ranges.get(mesh.0 as usize)
     }
 
-    /// Where a shape lies.
-    pub fn shape(&self, shape: Shape) -> &MeshRange {
-        &self.shapes[shape as usize]
+    /// Where a shape lies; none for a mesh that is not there.
+    pub fn shape(&self, shape: Shape) -> Option<&MeshRange> {
+        match shape {
+            Shape::Sphere => Some(&self.shapes[0]),
+            Shape::Cone => Some(&self.shapes[1]),
+            Shape::Mesh(mesh) => self.range(mesh),
+        }
     }
 
     /// Binds the vertex streams and the indices.
