@@ -93,7 +93,7 @@ pub struct Gpu {
 }
 
 /// Optional features, and what is lost without each.
-const WANTED: [(Features, &str); 8] = [
+const WANTED: [(Features, &str); 9] = [
     (
         Features::TIMESTAMP_QUERY,
         "timestamp queries: no GPU time per pass",
@@ -118,6 +118,10 @@ const WANTED: [(Features, &str); 8] = [
     (
         Features::RG11B10UFLOAT_RENDERABLE,
         "rendering to rg11b10ufloat",
+    ),
+    (
+        Features::TEXTURE_FORMAT_16BIT_NORM,
+        "normalised 16-bit formats such as rg16unorm",
     ),
     (
         Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES,
@@ -324,6 +328,24 @@ impl Gpu {
         self.device
             .features()
             .contains(Features::DEPTH_CLIP_CONTROL)
+    }
+
+    /// What the device can do with a format: with its adapter's word where the device was opened
+    /// with it, else what WebGPU guarantees. `None` where the format needs a feature that is not there.
+    pub fn format_features(
+        &self,
+        format: wgpu::TextureFormat,
+    ) -> Option<wgpu::TextureFormatFeatures> {
+        let features = self.device.features();
+        if !features.contains(format.required_features()) {
+            return None;
+        }
+        let specific = Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+        Some(if features.contains(specific) {
+            self.adapter.get_texture_format_features(format)
+        } else {
+            format.guaranteed_format_features(features)
+        })
     }
 
     /// Whether passes can be timed on the device.

@@ -33,6 +33,7 @@ pub mod scene;
 pub mod shader;
 pub mod statistics;
 pub mod targets;
+pub mod traffic;
 pub mod validate;
 pub mod variant;
 pub mod view;

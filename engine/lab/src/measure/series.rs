@@ -142,8 +142,13 @@ impl Series {
             pass.dropped = cost.dropped;
             pass.bytes_read = cost.traffic.read;
             pass.bytes_written = cost.traffic.written;
+            pass.bytes_stencil = cost.traffic.stencil;
+            pass.bytes_loaded = cost.traffic.loaded;
+            pass.bytes_stored = cost.traffic.stored;
             if let Some(measured) = measured {
                 pass.fragments = measured.fragments.get(index).copied();
+                let fragments = pass.fragments.filter(|_| cost.traffic.pixels > 0);
+                pass.bytes_overdraw = fragments.map(|count| cost.traffic.overdraw(count));
                 pass.vertices = measured.vertices.get(index).copied();
             }
         }

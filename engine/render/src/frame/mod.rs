@@ -131,6 +131,15 @@ pub struct Step {
     pub mark: Option<VolumeDraw>,
 }
 
+impl Step {
+    /// The share of the picture that it may draw to.
+    pub fn coverage(&self) -> f64 {
+        self.scissor.map_or(1.0, |[left, top, right, bottom]| {
+            f64::from((right - left).max(0.0)) * f64::from((bottom - top).max(0.0))
+        })
+    }
+}
+
 /// What a `lights` pass draws.
 #[derive(Clone, Debug, Default)]
 pub struct LightList {
