@@ -54,6 +54,7 @@ pub struct Scenes {
     wanted: bool,
     problems: Option<Problems>,
     reads: BTreeSet<String>,
+    swaps: u64,
 }
 
 impl Scenes {
@@ -70,6 +71,7 @@ impl Scenes {
             wanted: false,
             problems: None,
             reads: BTreeSet::new(),
+            swaps: 0,
         }
     }
 
@@ -91,6 +93,11 @@ impl Scenes {
     /// Which scene is on screen.
     pub fn shown(&self) -> Option<&str> {
         self.shown.as_deref()
+    }
+
+    /// How often a scene has taken the place of another.
+    pub fn swaps(&self) -> u64 {
+        self.swaps
     }
 
     /// Mistakes of the selected scene.
@@ -210,6 +217,7 @@ impl Scenes {
                 self.scene = Some(scene);
                 self.shown = Some(loading.name.clone());
                 self.problems = None;
+                self.swaps += 1;
                 Loaded::Scene { again }
             }
             Err(problems) => {
