@@ -118,11 +118,6 @@ impl Host {
             .compile_with_scope(scope, text)
             .map_err(|error| error.to_string())
     }
-
-    /// The files that were read, with the first.
-    pub(crate) fn files_read(&self) -> Vec<String> {
-        self.compiler.sources.paths()
-    }
 }
 
 /// The file that a name or a path means: `atrium` is `scripts/scenes/atrium.rhai`.

@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lightbench::assets::Task;
+use lightbench::assets::cache::Cache;
 use lightbench::assets::files::Files;
 use lightbench::render::{Place, Problem, Problems};
-use lightbench::script::{Scene, SettingValue, Settings, load_scene};
+use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_within};
 
 use super::Wake;
 
@@ -45,6 +46,8 @@ pub enum Loaded {
 pub struct Scenes {
     files: Files,
     wake: Wake,
+    /// What loads have made, for the next ones.
+    cache: Cache,
     scene: Option<Scene>,
     shown: Option<String>,
     selected: String,
@@ -63,6 +66,7 @@ impl Scenes {
         Self {
             files,
             wake,
+            cache: Cache::default(),
             scene: None,
             shown: None,
             selected: String::new(),
@@ -239,9 +243,10 @@ impl Scenes {
             reads.insert(path.to_owned());
         });
         let wake = Arc::clone(&self.wake);
-        let wanted = name.clone();
+        let (wanted, cache) = (name.clone(), self.cache.clone());
         let task = Task::start(move |progress| {
-            let scene = load_scene(&files, &wanted, &settings, progress);
+            let limits = Limits::default();
+            let scene = load_scene_within(&files, &wanted, &settings, progress, &cache, &limits);
             wake();
             scene
         });

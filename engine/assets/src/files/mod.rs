@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub use atomic::write_atomic;
 pub use error::FileError;
 pub use list::Listed;
-use observer::Observer;
+use observer::Observers;
 pub use path::{check, join};
 pub use project::{PROJECT_MARKER, create_project, find_project};
 pub use read::{MAX_FILE_BYTES, read_path};
@@ -58,7 +58,7 @@ pub struct Files {
     shipped: &'static [(&'static str, &'static [u8])],
     /// Canonical folders.
     grants: Vec<PathBuf>,
-    observer: Observer,
+    observers: Observers,
 }
 
 impl Files {
@@ -69,7 +69,7 @@ impl Files {
             project: None,
             shipped: shipped::SHIPPED,
             grants: Vec::new(),
-            observer: Observer::default(),
+            observers: Observers::default(),
         }
     }
 
@@ -93,11 +93,12 @@ impl Files {
     }
 
     /// The same store, whose reads are told to `observe` with the path and the
-    /// bytes, as they are on the disk. A report hashes its inputs so.
+    /// bytes, as they are on the disk, beside those who are told already. A
+    /// report hashes its inputs so.
     #[must_use]
     pub fn observed(&self, observe: impl Fn(&str, &[u8]) + Send + Sync + 'static) -> Self {
         Self {
-            observer: Observer::new(observe),
+            observers: self.observers.and(observe),
             ..self.clone()
         }
     }
@@ -154,7 +155,7 @@ impl Files {
                 .map(<[u8]>::to_vec)
                 .ok_or_else(|| FileError::not_found(path, self.project())),
         }?;
-        self.observer.tell(path, &bytes);
+        self.observers.tell(path, &bytes);
         Ok(bytes)
     }
 

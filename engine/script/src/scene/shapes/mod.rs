@@ -6,7 +6,7 @@ mod setters;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::procedural::{self, Arch, ArchedWall, Cloth, Column, MAX_SEGMENTS, Profile};
-use lightbench_assets::{Mesh, MeshId};
+use lightbench_assets::{Mesh, MeshId, Shared};
 use lightbench_world::glam::{UVec2, Vec2, Vec3};
 
 use super::data::{Data, Stage};
@@ -179,11 +179,9 @@ impl Shape {
         }
         let watch = Arc::clone(&data.watch);
         let mesh = watch.free_of_charge(|| {
-            let mut mesh = plan.kind.build();
-            if plan.repeat != Vec2::ONE {
-                mesh.uvs.iter_mut().for_each(|uv| *uv *= plan.repeat);
-            }
-            mesh
+            let made_of = (&plan.kind, plan.repeat);
+            data.reuse
+                .get("shape", &made_of, || Shared::shared(plan.build()))
         });
         let mesh = data.add_mesh(mesh)?;
         plan.mesh = Some(mesh);
@@ -195,6 +193,14 @@ impl Shape {
 }
 
 impl Plan {
+    fn build(&self) -> Mesh {
+        let mut mesh = self.kind.build();
+        if self.repeat != Vec2::ONE {
+            mesh.uvs.iter_mut().for_each(|uv| *uv *= self.repeat);
+        }
+        mesh
+    }
+
     /// Follows a call that changed the shape: what was drawn with it keeps its mesh, and what
     /// comes gets a new one.
     fn changed(&mut self, call: &Arguments) {
