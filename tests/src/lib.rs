@@ -60,14 +60,53 @@ impl Studio {
         }
     }
 
-    /// Draws one frame of the scene at its beginning.
-    pub fn draw(&mut self, pipeline: &str, settings: &Settings, size: (u32, u32)) -> Pipeline {
+    /// Shows a scene of a project instead.
+    pub fn show(&mut self, files: Files, scene: &str) {
+        let scene = load_scene(&files, scene, &Settings::new(), &Progress::default());
+        self.scene = scene.unwrap_or_else(|e| panic!("{e}"));
+        self.view = View::from_world(&self.scene.world).unwrap_or_default();
+        self.files = files;
+        self.renderer.reset_scene();
+    }
+
+    /// A shipped pipeline, or one of the project.
+    pub fn compile(&self, pipeline: &str, settings: &Settings) -> Pipeline {
         let desc = load_pipeline(&self.files, pipeline, settings).unwrap_or_else(|e| panic!("{e}"));
-        let mut pipeline = self
-            .renderer
+        self.renderer
             .compiler()
             .compile(&self.files, &desc)
-            .unwrap_or_else(|e| panic!("{e}"));
+            .unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// Draws one frame of the scene at its beginning, and keeps all targets and the counters.
+    pub fn draw_whole(
+        &mut self,
+        pipeline: &str,
+        settings: &Settings,
+        size: (u32, u32),
+    ) -> (Pipeline, Counts) {
+        let mut pipeline = self.compile(pipeline, settings);
+        pipeline.keep_all_targets(true);
+        let (world, assets) = (&mut self.scene.world, &self.scene.assets);
+        if pipeline.may_outgrow() {
+            self.renderer
+                .render_whole(world, assets, &mut pipeline, &self.view, size, 0.0)
+                .unwrap();
+        }
+        let serial = self.renderer.next_frame();
+        self.renderer
+            .render(world, assets, &mut pipeline, &self.view, size, 0.0)
+            .unwrap();
+        let measured = self.renderer.finish(60).unwrap();
+        let measured = measured.into_iter().find(|m| m.frame == serial).unwrap();
+        let names = pipeline.desc.counters.iter().map(|c| c.name.clone());
+        let counts = Counts(names.zip(measured.counters).collect());
+        (pipeline, counts)
+    }
+
+    /// Draws one frame of the scene at its beginning.
+    pub fn draw(&mut self, pipeline: &str, settings: &Settings, size: (u32, u32)) -> Pipeline {
+        let mut pipeline = self.compile(pipeline, settings);
         let (world, assets) = (&mut self.scene.world, &self.scene.assets);
         self.renderer
             .render_whole(world, assets, &mut pipeline, &self.view, size, 0.0)
@@ -86,6 +125,32 @@ impl Studio {
         let pipeline = self.draw(pipeline, settings, size);
         self.renderer.read_output(&pipeline).unwrap().2
     }
+}
+
+/// What the counters of a pipeline said of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counts(Vec<(String, u32)>);
+
+impl Counts {
+    /// One of them.
+    pub fn of(&self, name: &str) -> u32 {
+        let found = self.0.iter().find(|(known, _)| known == name);
+        found
+            .unwrap_or_else(|| panic!("there is no counter `{name}` in {self:?}"))
+            .1
+    }
+}
+
+/// A project that lays files over the shipped ones, until the folder is dropped.
+pub fn project(files: &[(&str, &str)]) -> (tempfile::TempDir, Files) {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, text) in files {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    let files = Files::with_project(folder.path()).unwrap();
+    (folder, files)
 }
 
 /// Numbers that look random and are the same in every run (SplitMix64, Steele et al. 2014).

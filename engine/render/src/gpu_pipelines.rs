@@ -78,6 +78,8 @@ pub enum PassPipelines {
     Geometry(GeometryPipelines),
     /// Light volumes.
     Lights(LightsPipelines),
+    /// Meshes as lights see them.
+    Shadow(GeometryPipelines),
     /// One triangle.
     Fullscreen(DrawPipeline),
     /// A dispatch.
@@ -133,6 +135,8 @@ pub struct GeometryPipelines {
     pub variants: Vec<Option<DrawPipeline>>,
     /// With stencil masks: what marks the pixels inside a light's volume.
     pub mask: Option<MaskPipelines>,
+    /// Whether the vertex stage fetches vertices itself: then draws are not indexed.
+    pub pull_vertices: bool,
 }
 
 /// Marks the pixels whose surface lies inside a volume, in two steps.

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use crate::binding::{EngineBuffer, Source};
 use crate::compiled_pass::{CompiledPass, EngineBuffers};
 use crate::description::{Amount, Dispatch, Lights, PassKind, PipelineDesc};
-use crate::frame::ListKey;
+use crate::frame::{ListKey, ShadowKey};
 use crate::gpu::Gpu;
 use crate::life::Lives;
 use crate::queries::Measured;
@@ -40,6 +41,8 @@ pub struct Pipeline {
     pub(crate) lists: Vec<ListKey>,
     /// The lists of lights that its lights passes need, each once.
     pub(crate) light_lists: Vec<Lights>,
+    /// The views that its shadow passes draw, each once.
+    pub(crate) shadow_lists: Vec<ShadowKey>,
     lives: Lives,
     targets: Option<Targets>,
     engine_revision: u64,
@@ -67,9 +70,14 @@ impl Pipeline {
         files: BTreeSet<String>,
     ) -> Self {
         let (mut lists, mut light_lists) = (Vec::new(), Vec::new());
+        let mut shadow_lists = Vec::new();
         for (pass, compiled) in desc.passes.iter().zip(&mut passes) {
             compiled.list = match &pass.kind {
                 PassKind::Lights(lights) => Some(position(&mut light_lists, lights.clone())),
+                PassKind::Shadow(_) => {
+                    let key = ShadowKey::of(&desc, pass);
+                    key.map(|key| position(&mut shadow_lists, key))
+                }
                 _ => ListKey::of(pass).map(|key| position(&mut lists, key)),
             };
         }
@@ -84,6 +92,7 @@ impl Pipeline {
             passes,
             lists,
             light_lists,
+            shadow_lists,
             targets: None,
             engine_revision: 0,
             share_textures: true,
@@ -109,6 +118,15 @@ impl Pipeline {
     /// import.
     pub fn files(&self) -> &BTreeSet<String> {
         &self.files
+    }
+
+    /// The buffers of the engine that its shaders bind.
+    pub fn engine_buffers(&self) -> impl Iterator<Item = EngineBuffer> + '_ {
+        let sources = self.passes.iter().flat_map(|pass| &pass.sources);
+        sources.filter_map(|(_, source)| match source {
+            Source::Engine(which) => Some(*which),
+            _ => None,
+        })
     }
 
     /// Which passes run: the others' results reach neither the picture nor a counter.

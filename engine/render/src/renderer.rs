@@ -177,13 +177,14 @@ impl Renderer {
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.queries.begin(
             self.serial,
-            measures(pipeline, &self.inspector),
+            measures(pipeline, &self.frame, &self.inspector),
             pipeline.desc.counters.len(),
         );
         let recording = Recording {
             frame: &self.frame,
             meshes: &self.scene.meshes,
             scene: &group,
+            view_bytes: self.scene.view_bytes(),
         };
         record(
             pipeline,
@@ -243,6 +244,7 @@ impl Renderer {
             frame: &self.frame,
             meshes: &self.scene.meshes,
             scene: &group,
+            view_bytes: self.scene.view_bytes(),
         };
         warm(pipeline, &recording, &self.queries, &mut encoder);
         self.submit(encoder);
@@ -297,6 +299,7 @@ impl Renderer {
             previous: self.views.before(self.index),
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
+            shadow_lists: &pipeline.shadow_lists,
         };
         let (extraction, ()) = SystemTime::of("extraction", || {
             let (instances, lights) = (self.scene.instances(), self.scene.lights());
@@ -313,7 +316,12 @@ impl Renderer {
 
         let started = Instant::now();
         let lights = self.scene.lights().len() as u32;
+        self.scene.upload_views(&self.frame);
         let engine = self.scene.engine_buffers();
+        let most = self.gpu.device.limits().max_storage_buffer_binding_size;
+        if let Some(problem) = engine.too_large(pipeline.engine_buffers(), most) {
+            return Err(RenderError::Scene(problem));
+        }
         let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights);
         self.statistics.target_bytes = targets.bytes();
         self.statistics.saved_bytes = targets.saved_bytes;

@@ -90,7 +90,7 @@ pub struct Traffic {
 /// - Vertices, textures and the engine's buffers are left out.
 pub fn traffic(pass: &PassDesc, targets: &Targets, coverage: f64) -> Traffic {
     let share = match pass.kind {
-        PassKind::Lights(_) => coverage,
+        PassKind::Lights(_) | PassKind::Shadow(_) => coverage,
         _ => 1.0,
     };
     let scaled = |bytes: u64| (bytes as f64 * share).round() as u64;

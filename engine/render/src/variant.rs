@@ -42,6 +42,12 @@ impl Variant {
         self.0 & Self::ALPHA_TEST != 0
     }
 
+    /// The same in a view that swaps left and right.
+    #[must_use]
+    pub fn turned(self) -> Self {
+        Self(self.0 ^ Self::MIRRORED)
+    }
+
     /// Front faces wind clockwise.
     pub fn mirrored(self) -> bool {
         self.0 & Self::MIRRORED != 0

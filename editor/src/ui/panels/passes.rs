@@ -30,7 +30,7 @@ pub struct PassesPanel {
     rows: Vec<Row>,
     /// Name and median of each system.
     systems: Vec<(&'static str, Option<f64>)>,
-    /// What each counter of the pipeline counts, and its value.
+    /// What each counter of the pipeline counts, and its value; then lights without a place.
     counters: Vec<(String, Option<u32>)>,
     target_bytes: u64,
     pipeline: String,
@@ -63,6 +63,10 @@ impl PassesPanel {
                 (counter.description.clone(), value)
             })
             .collect();
+        let passes = pipeline.desc.passes.iter().zip(&statistics.passes);
+        self.counters.extend(passes.filter_map(|(pass, cost)| {
+            Some((pass.unplaced_in_words()?, Some(cost.unplaced_lights)))
+        }));
         for (index, pass) in pipeline.desc.passes.iter().enumerate() {
             let times = editor.timings.passes.get(index);
             self.rows.push(Row {
@@ -205,13 +209,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     systems(panel, ui);
 }
 
-/// What the pipeline's shaders counted.
+/// What the pipeline's shaders counted, and what of the scene found no room.
 fn counters(panel: &PassesPanel, ui: &mut Ui) {
     if panel.counters.is_empty() {
         return;
     }
     ui.add_space(4.0);
-    ui.label(RichText::new("Counted by its shaders").small().weak());
+    ui.label(RichText::new("Counted").small().weak());
     let table = egui::Grid::new("counters").num_columns(2);
     table.striped(true).show(ui, |ui| {
         for (description, value) in &panel.counters {

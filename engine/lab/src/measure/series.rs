@@ -35,6 +35,10 @@ pub(super) struct Series {
     /// GPU time of each frame and of its passes; NaN where a frame's queries were lost.
     frames: Vec<f64>,
     passes: Vec<Vec<f64>>,
+    /// How many of the counters the GPU counts; the others count lights without a place.
+    counters: usize,
+    /// The passes that spread lights over arrays, in the order of those counters.
+    spreading: Vec<usize>,
 }
 
 impl Series {
@@ -60,6 +64,13 @@ impl Series {
             description: counter.description.clone(),
             values: Vec::with_capacity(frames),
         });
+        let unplaced = desc.passes.iter().filter_map(|pass| {
+            Some(CounterResult {
+                name: format!("unplaced_lights of {}", pass.name),
+                description: pass.unplaced_in_words()?,
+                values: Vec::with_capacity(frames),
+            })
+        });
         Self {
             result: PipelineResult {
                 name: desc.name.clone(),
@@ -69,13 +80,17 @@ impl Series {
                 features_needed: desc.features_needed(),
                 notes: pipeline.notes.clone(),
                 abilities: abilities.collect(),
-                counters: counters.collect(),
+                counters: counters.chain(unplaced).collect(),
                 passes: passes.collect(),
                 frame_cpu_ms: Vec::with_capacity(frames),
                 ..PipelineResult::default()
             },
             frames: Vec::with_capacity(frames),
             passes: vec![Vec::with_capacity(frames); desc.passes.len()],
+            counters: desc.counters.len(),
+            spreading: (0..desc.passes.len())
+                .filter(|index| desc.passes[*index].unplaced_in_words().is_some())
+                .collect(),
         }
     }
 
@@ -95,8 +110,13 @@ impl Series {
         let total = measured.and_then(|measured| measured.total_ms);
         self.frames.push(total.unwrap_or(f64::NAN));
         let counts = measured.map_or(&[][..], |measured| &measured.counters);
-        for (counter, value) in self.result.counters.iter_mut().zip(counts) {
+        let (counted, unplaced) = self.result.counters.split_at_mut(self.counters);
+        for (counter, value) in counted.iter_mut().zip(counts) {
             counter.values.push(f64::from(*value));
+        }
+        for (counter, pass) in unplaced.iter_mut().zip(&self.spreading) {
+            let cost = &statistics.passes[*pass];
+            counter.values.push(f64::from(cost.unplaced_lights));
         }
         let passes = self.result.passes.iter_mut().zip(&mut self.passes);
         for (index, ((pass, times), cost)) in passes.zip(&statistics.passes).enumerate() {

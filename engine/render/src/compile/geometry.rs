@@ -19,6 +19,21 @@ impl Compiler {
         geometry: &Geometry,
         layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
+        if geometry.pull_vertices {
+            self.pulls(files, pass)?;
+        }
+        let built = self.variants_of(files, desc, pass, geometry, layout)?;
+        Ok(PassPipelines::Geometry(built))
+    }
+
+    pub(super) fn variants_of(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        geometry: &Geometry,
+        layout: &PassLayout,
+    ) -> Result<GeometryPipelines, Problem> {
         let mut variants = Vec::with_capacity(Variant::COUNT);
         for variant in Variant::all() {
             if !self.variants.contains(variant) {
@@ -30,7 +45,7 @@ impl Compiler {
             let fragment = pass
                 .shader
                 .as_ref()
-                .filter(|_| outputs || variant.alpha_test());
+                .filter(|_| outputs || variant.alpha_test() || geometry.pull_vertices);
             let depth_only = fragment.is_none();
             let state = State {
                 fragment_defines: variant.defines(),
@@ -63,10 +78,36 @@ impl Compiler {
             Some(repeat) if repeat.stencil => Some(self.mask(files, desc, pass, layout)?),
             _ => None,
         };
-        Ok(PassPipelines::Geometry(GeometryPipelines {
+        Ok(GeometryPipelines {
             variants,
             mask,
-        }))
+            pull_vertices: geometry.pull_vertices,
+        })
+    }
+
+    /// The shader of a pass that draws without vertex buffers fetches its vertices.
+    fn pulls(&mut self, files: &Files, pass: &PassDesc) -> Result<(), Problem> {
+        let Some(shader) = &pass.shader else {
+            return Err(Problem::new(
+                pass.at.clone(),
+                format!("`{}` pulls its vertices, but has no shader", pass.name),
+            )
+            .with_hint("add .shader(\"shaders/name.wgsl\") with a vertex stage of its own"));
+        };
+        let reflection = &self
+            .load(files, &shader.path, &[], &shader.defines)?
+            .reflection;
+        if reflection.has_vertex && reflection.vertex_inputs.is_empty() {
+            return Ok(());
+        }
+        let message = format!(
+            "`{}` pulls its vertices, but `{}` has no vertex stage that fetches them",
+            pass.name, shader.path
+        );
+        Err(Problem::new(shader.at.clone(), message).with_hint(
+            "write `@vertex fn vertex_main(@builtin(vertex_index) …)` without @location inputs, and \
+             fetch from `mesh_indices` and `mesh_positions`",
+        ))
     }
 
     /// What marks the pixels whose surface lies inside a light's volume.

@@ -10,6 +10,7 @@ mod fullscreen;
 mod geometry;
 mod lights;
 mod mips;
+mod shadow;
 mod state;
 
 use std::collections::{BTreeSet, HashMap};
@@ -244,8 +245,17 @@ impl Compiler {
             let loaded = self
                 .load(files, &shader.path, &[], &shader.defines)
                 .map_err(one)?;
-            sources = bind(desc, pass, &loaded.shader, &loaded.reflection)?;
-            parameters = loaded.reflection.parameters.clone();
+            let mut reflection = loaded.reflection.clone();
+            // Alpha-tested materials may ask for more.
+            if matches!(pass.kind, PassKind::Geometry(_)) {
+                let tested = self
+                    .load(files, &shader.path, &["ALPHA_TEST"], &shader.defines)
+                    .map_err(one)?;
+                reflection.add_bindings(&tested.reflection);
+            }
+            let loaded = &self.shaders[&(shader.path.clone(), Vec::new(), shader.defines.clone())];
+            sources = bind(desc, pass, &loaded.shader, &reflection)?;
+            parameters = reflection.parameters;
         }
 
         let target_layout = target_layout(&self.gpu, &sources, desc, pass);
@@ -275,6 +285,7 @@ impl Compiler {
         let pipelines = match &pass.kind {
             PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, &layout),
             PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
+            PassKind::Shadow(shadow) => self.shadow(files, desc, pass, shadow, &layout),
             PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
             PassKind::Compute(_) => self.compute(files, pass, &layout),
             PassKind::Mips { target, reduction } => {

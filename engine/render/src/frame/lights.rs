@@ -34,7 +34,7 @@ impl Frame {
             let array = if key.arrays == 0 {
                 0
             } else {
-                match place(&mut self.arrays, key.arrays, light) {
+                match place(&mut self.arrays, key, light, view) {
                     Some(array) => array,
                     None => {
                         list.unplaced += 1;
@@ -89,19 +89,46 @@ impl Frame {
     }
 }
 
-/// Finds the first array in which a light overlaps no other, by bounding spheres, and puts it there.
-fn place(arrays: &mut Vec<Vec<(Vec3, f32)>>, count: u32, light: &LightData) -> Option<u32> {
-    if arrays.len() < count as usize {
-        arrays.resize_with(count as usize, Vec::new);
+/// What a light takes up in an array.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Place {
+    /// A sphere in the world: centre and radius.
+    Sphere(Vec3, f32),
+    /// A rectangle of the screen.
+    Rectangle([f32; 4]),
+}
+
+impl Place {
+    fn overlaps(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Sphere(a, a_radius), Self::Sphere(b, b_radius)) => {
+                a.distance_squared(*b) <= (a_radius + b_radius).powi(2)
+            }
+            (Self::Rectangle(a), Self::Rectangle(b)) => volumes::overlap(a, b),
+            _ => true,
+        }
     }
-    let (center, radius) = (light.position, light.range);
-    let free = |array: &Vec<(Vec3, f32)>| {
-        array.iter().all(|(other, other_radius)| {
-            let apart = radius + other_radius;
-            other.distance_squared(center) > apart * apart
-        })
+}
+
+/// Finds the first array in which a light overlaps no other, and puts it there. At one depth lights
+/// overlap where their spheres do; seen at any depth, where they do on the screen.
+fn place(
+    arrays: &mut Vec<Vec<Place>>,
+    key: &Lights,
+    light: &LightData,
+    view: &ViewVolume,
+) -> Option<u32> {
+    let count = key.arrays as usize;
+    if arrays.len() < count {
+        arrays.resize_with(count, Vec::new);
+    }
+    let place = if key.any_depth {
+        Place::Rectangle(volumes::rectangle(light, view))
+    } else {
+        Place::Sphere(light.position, light.range)
     };
-    let found = arrays[..count as usize].iter().position(free)?;
-    arrays[found].push((center, radius));
+    let free = |array: &Vec<Place>| !array.iter().any(|other| other.overlaps(&place));
+    let found = arrays[..count].iter().position(free)?;
+    arrays[found].push(place);
     Some(found as u32)
 }

@@ -3,9 +3,11 @@
 //! Flat arrays in the layout that the GPU reads, filled again each frame without allocation once
 //! they have their size. Passes see the frame and never the world.
 
+mod layers;
 mod lights;
 mod object_lights;
 mod objects;
+mod shadows;
 
 use glam::{Mat4, Vec3};
 use lightbench_assets::Assets;
@@ -13,11 +15,15 @@ use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
 use lightbench_world::{MeshId, World, WorldBounds};
 
 use crate::description::{DrawList, DrawOrder, Lights, ObjectLights, PassDesc, PassKind, Repeat};
-use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
+use crate::gpu_data::{
+    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, ShadowViewData,
+};
 use crate::variant::{Variant, Variants};
 use crate::view::View;
 use crate::volumes::{self, VolumeDraw, VolumeKind};
 use objects::Objects;
+
+pub use shadows::{NO_VIEW, ShadowKey, ShadowList, ViewDraws};
 
 /// The view as the choice of light volumes needs it.
 #[derive(Clone, Debug)]
@@ -75,6 +81,14 @@ pub struct Frame {
     pub lists: Vec<ObjectList>,
     /// What `lights` passes draw, in the order of the request.
     pub light_lists: Vec<LightList>,
+    /// What `shadow` passes draw, in the order of the request.
+    pub shadow_lists: Vec<ShadowList>,
+    /// What shaders see as `frame` in each view of the `shadow` passes.
+    pub views: Vec<FrameData>,
+    /// The same views as shaders look them up.
+    pub shadow_views: Vec<ShadowViewData>,
+    /// Of each light the first of its views, or [`NO_VIEW`]; empty without `shadow` passes.
+    pub light_shadows: Vec<u32>,
     /// Objects that the camera sees.
     pub visible_objects: u32,
     /// Lights that the camera sees.
@@ -83,12 +97,16 @@ pub struct Frame {
     pub variants: Variants,
     /// Rows of the objects that the camera sees.
     visible: Vec<u32>,
+    /// Rows of the objects that a shadow view sees.
+    seen: Vec<u32>,
     order: Vec<objects::Entry>,
     kinds: Vec<Chosen>,
     /// Where the lists of all lights and of ambient ones begin and how long they are, once made.
     shared_lights: [Option<(u32, u32)>; 2],
-    /// For each array of lights, the spheres of those in it.
-    arrays: Vec<Vec<(Vec3, f32)>>,
+    /// For each array of lights, what those in it take up.
+    arrays: Vec<Vec<lights::Place>>,
+    /// Objects and their rectangles, nearest first, while layers are chosen.
+    layered: Vec<layers::Layered>,
 }
 
 /// What a `geometry` pass draws.
@@ -143,6 +161,8 @@ pub struct ListKey {
     pub lights: ObjectLights,
     /// Once for each group of lights.
     pub repeat: Option<Repeat>,
+    /// Over how many layers; 0: none are chosen.
+    pub layers: u32,
 }
 
 impl ListKey {
@@ -154,6 +174,7 @@ impl ListKey {
                 order: geometry.order,
                 lights: geometry.lights,
                 repeat: geometry.repeat,
+                layers: geometry.layers,
             }),
             _ => None,
         }
@@ -183,6 +204,8 @@ pub struct FrameRequest<'a> {
     pub lists: &'a [ListKey],
     /// The lists of lights that passes draw.
     pub light_lists: &'a [Lights],
+    /// The views that `shadow` passes draw.
+    pub shadow_lists: &'a [ShadowKey],
 }
 
 impl Frame {
@@ -220,6 +243,17 @@ impl Frame {
             .resize_with(request.light_lists.len(), Default::default);
         for (index, key) in request.light_lists.iter().enumerate() {
             self.light_volumes(index, key, lights, &volume);
+        }
+        self.views.clear();
+        self.shadow_views.clear();
+        self.light_shadows.clear();
+        if !request.shadow_lists.is_empty() {
+            self.light_shadows.resize(lights.len(), NO_VIEW);
+        }
+        self.shadow_lists
+            .resize_with(request.shadow_lists.len(), Default::default);
+        for (index, key) in request.shadow_lists.iter().enumerate() {
+            self.shadow_views(index, key, &objects);
         }
     }
 

@@ -44,7 +44,10 @@ impl Work<'_> {
                 render_pass.draw(0..3, 0..1);
                 cost.count(1, &(0..1));
             }
-            PassPipelines::Compute(_) | PassPipelines::Mips { .. } | PassPipelines::None => {}
+            PassPipelines::Shadow(_)
+            | PassPipelines::Compute(_)
+            | PassPipelines::Mips { .. }
+            | PassPipelines::None => {}
         });
     }
 
@@ -151,15 +154,20 @@ impl Work<'_> {
         })
     }
 
-    /// Sets the groups and the constants that all draws of the pass share.
-    fn bind(&self, render_pass: &mut wgpu::RenderPass<'_>) {
-        render_pass.set_bind_group(0, self.recording.scene, &[0]);
+    /// Sets the groups. `view` is the offset of the view that shaders see as `frame`.
+    pub(super) fn bind_groups(&self, view: u32, render_pass: &mut wgpu::RenderPass<'_>) {
+        render_pass.set_bind_group(0, self.recording.scene, &[view]);
         if let Some(group) = &self.pass.target_group {
             render_pass.set_bind_group(1, group, &[]);
         }
         if let Some(parameters) = &self.pass.parameters {
             render_pass.set_bind_group(2, &parameters.group, &[]);
         }
+    }
+
+    /// Sets the groups and the constants that all draws of the pass share.
+    fn bind(&self, render_pass: &mut wgpu::RenderPass<'_>) {
+        self.bind_groups(0, render_pass);
         let [r, g, b, a] = self.desc.blend_constant;
         render_pass.set_blend_constant(wgpu::Color { r, g, b, a });
         let stencil = self.desc.depth.as_ref().and_then(|d| d.stencil.as_ref());

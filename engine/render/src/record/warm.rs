@@ -7,7 +7,7 @@
 use super::Recording;
 use super::raster::Work;
 use crate::compiled_pass::CompiledPass;
-use crate::frame::Frame;
+use crate::frame::{Frame, MeshDraw};
 use crate::gpu_pipelines::{
     ComputePipeline, DrawPipeline, GeometryPipelines, LightsPipelines, PassPipelines,
 };
@@ -19,6 +19,7 @@ use crate::volumes::{Case, VolumeDraw};
 /// A GPU pipeline that the frame needs and that nobody has drawn with, and the least to do with it.
 enum Cold<'a> {
     Draw(&'a DrawPipeline, Triangle),
+    Shadow(&'a DrawPipeline, Triangle, u32),
     Compute(&'a ComputePipeline),
     MipLevel(&'a DrawPipeline, &'a (wgpu::TextureView, wgpu::BindGroup)),
 }
@@ -64,6 +65,9 @@ pub fn warm(
     };
     match cold {
         Cold::Draw(pipeline, triangle) => work.clipped_draw(pipeline, &triangle, encoder),
+        Cold::Shadow(pipeline, triangle, view) => {
+            work.clipped_shadow(pipeline, &triangle, view, encoder);
+        }
         Cold::Compute(pipeline) => work
             .begin_compute(pipeline, encoder)
             .dispatch_workgroups(0, 0, 0),
@@ -84,6 +88,7 @@ fn cold<'a>(pass: &'a CompiledPass, frame: &Frame, meshes: &MeshPool) -> Option<
         PassPipelines::None => None,
         PassPipelines::Geometry(pipelines) => geometry(pass, pipelines, frame, meshes),
         PassPipelines::Lights(pipelines) => lights(pass, pipelines, frame, meshes),
+        PassPipelines::Shadow(pipelines) => shadow(pass, pipelines, frame, meshes),
         PassPipelines::Fullscreen(pipeline) => draw(pipeline, screen),
         PassPipelines::Compute(pipeline) => {
             pipeline.warmth.is_cold().then_some(Cold::Compute(pipeline))
@@ -104,14 +109,8 @@ fn geometry<'a>(
     meshes: &MeshPool,
 ) -> Option<Cold<'a>> {
     let list = frame.lists.get(pass.list?)?;
-    let of_mesh = |run: &crate::frame::MeshDraw| {
-        let pipeline = pipelines.variants.get(run.variant.index())?.as_ref()?;
-        let mesh = meshes.range(run.mesh)?;
-        let triangle = Triangle::Indexed {
-            first_index: mesh.indices.start,
-            base_vertex: mesh.base_vertex,
-            instance: run.objects.start,
-        };
+    let of_mesh = |run: &MeshDraw| {
+        let (pipeline, triangle) = mesh(run, pipelines, meshes)?;
         draw(pipeline, triangle)
     };
     let of_mask = || {
@@ -122,6 +121,43 @@ fn geometry<'a>(
             .or_else(|| draw(&mask.screen, Triangle::Screen { instance: 0 }))
     };
     list.draws.iter().find_map(of_mesh).or_else(of_mask)
+}
+
+fn shadow<'a>(
+    pass: &CompiledPass,
+    pipelines: &'a GeometryPipelines,
+    frame: &Frame,
+    meshes: &MeshPool,
+) -> Option<Cold<'a>> {
+    let list = frame.shadow_lists.get(pass.list?)?;
+    list.views.iter().find_map(|view| {
+        list.draws[view.draws.clone()].iter().find_map(|run| {
+            let (pipeline, triangle) = mesh(run, pipelines, meshes)?;
+            let cold = pipeline.warmth.is_cold();
+            cold.then_some(Cold::Shadow(pipeline, triangle, view.view))
+        })
+    })
+}
+
+/// The first triangle of a mesh, and what draws it.
+fn mesh<'a>(
+    run: &MeshDraw,
+    pipelines: &'a GeometryPipelines,
+    meshes: &MeshPool,
+) -> Option<(&'a DrawPipeline, Triangle)> {
+    let pipeline = pipelines.variants.get(run.variant.index())?.as_ref()?;
+    let mesh = meshes.range(run.mesh)?;
+    let instance = run.objects.start;
+    let triangle = if pipelines.pull_vertices {
+        Triangle::Screen { instance }
+    } else {
+        Triangle::Indexed {
+            first_index: mesh.indices.start,
+            base_vertex: mesh.base_vertex,
+            instance,
+        }
+    };
+    Some((pipeline, triangle))
 }
 
 fn lights<'a>(
@@ -172,19 +208,44 @@ impl Work<'_> {
         encoder: &mut wgpu::CommandEncoder,
     ) {
         self.begin(encoder, |render_pass| {
-            pipeline.set(render_pass);
-            match *triangle {
-                Triangle::Indexed {
-                    first_index,
-                    base_vertex,
-                    instance,
-                } => {
-                    let indices = first_index..first_index + 3;
-                    self.recording.meshes.bind(render_pass, pipeline.attributes);
-                    render_pass.draw_indexed(indices, base_vertex, instance..instance + 1);
-                }
-                Triangle::Screen { instance } => render_pass.draw(0..3, instance..instance + 1),
-            }
+            self.triangle(pipeline, triangle, render_pass);
         });
+    }
+
+    fn clipped_shadow(
+        &self,
+        pipeline: &DrawPipeline,
+        triangle: &Triangle,
+        view: u32,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
+        let Some(layer) = self.pass.attachments.layers.first() else {
+            return;
+        };
+        let mut render_pass = self.layer(layer, None, encoder);
+        self.bind_groups(self.recording.view_offset(view), &mut render_pass);
+        render_pass.set_scissor_rect(0, 0, 0, 0);
+        self.triangle(pipeline, triangle, &mut render_pass);
+    }
+
+    fn triangle(
+        &self,
+        pipeline: &DrawPipeline,
+        triangle: &Triangle,
+        render_pass: &mut wgpu::RenderPass<'_>,
+    ) {
+        pipeline.set(render_pass);
+        match *triangle {
+            Triangle::Indexed {
+                first_index,
+                base_vertex,
+                instance,
+            } => {
+                let indices = first_index..first_index + 3;
+                self.recording.meshes.bind(render_pass, pipeline.attributes);
+                render_pass.draw_indexed(indices, base_vertex, instance..instance + 1);
+            }
+            Triangle::Screen { instance } => render_pass.draw(0..3, instance..instance + 1),
+        }
     }
 }
