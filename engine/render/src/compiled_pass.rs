@@ -13,7 +13,7 @@ use crate::targets::Targets;
 #[derive(Clone, Copy, Debug)]
 pub struct EngineBuffers<'a> {
     /// Those of all meshes.
-    pub meshes: MeshBuffers<'a>,
+    pub meshes: &'a MeshBuffers,
     /// The views of all `shadow` passes.
     pub shadow_views: &'a wgpu::Buffer,
     /// Of each light the first of its views.
@@ -25,10 +25,10 @@ pub struct EngineBuffers<'a> {
 impl EngineBuffers<'_> {
     fn get(&self, which: EngineBuffer) -> &wgpu::Buffer {
         match which {
-            EngineBuffer::MeshPositions => self.meshes.positions,
-            EngineBuffer::MeshAttributes => self.meshes.attributes,
-            EngineBuffer::MeshGroups => self.meshes.groups,
-            EngineBuffer::MeshIndices => self.meshes.indices,
+            EngineBuffer::MeshPositions => &self.meshes.positions,
+            EngineBuffer::MeshAttributes => &self.meshes.attributes,
+            EngineBuffer::MeshGroups => &self.meshes.groups,
+            EngineBuffer::MeshIndices => &self.meshes.indices,
             EngineBuffer::ShadowViews => self.shadow_views,
             EngineBuffer::LightShadows => self.light_shadows,
         }
