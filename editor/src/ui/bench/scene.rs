@@ -9,9 +9,10 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail, ensure};
 use lightbench::assets::Progress;
+use lightbench::assets::cache::Cache;
 use lightbench::assets::files::Files;
 use lightbench::lab::measure::load_average;
-use lightbench::script::{Scene, Settings, load_scene};
+use lightbench::script::{Limits, Scene, Settings, load_scene_within};
 use lightbench::world::SystemTime;
 
 use super::{BenchOptions, Session, percentile};
@@ -29,6 +30,8 @@ pub struct SceneTimes {
     pub saves_ms: Vec<f64>,
     /// Loads that could reuse nothing.
     pub whole: Loads,
+    /// Loads that could reuse what the one before has made.
+    pub again: Loads,
     /// How many programs wanted a core, on average over the last minute.
     pub load_average: Option<f64>,
 }
@@ -73,6 +76,8 @@ impl std::fmt::Display for SceneTimes {
         line("save to picture", &self.saves_ms)?;
         line("a load that reuses nothing", &self.whole.ms)?;
         line("  its thread alone", &self.whole.thread_ms)?;
+        line("a load after a save", &self.again.ms)?;
+        line("  its thread alone", &self.again.thread_ms)?;
         match self.load_average {
             Some(average) => write!(f, "\n  load average: {average:.2}"),
             None => Ok(()),
@@ -94,7 +99,7 @@ pub fn scene(
 ) -> anyhow::Result<SceneTimes> {
     let folder = tempfile::tempdir().context("no place for a temporary project")?;
     let project = Files::with_project(folder.path())?;
-    let original = load(files, &options.scene)?;
+    let original = load(files, &options.scene, &Cache::default())?;
     if !original.path.ends_with(".rhai") {
         bail!("`{}` is no script", original.path);
     }
@@ -118,11 +123,20 @@ pub fn scene(
         drawn: options.size,
         saves_ms: Vec::with_capacity(edits),
         whole: Loads::default(),
+        again: Loads::default(),
         load_average: None,
     };
+    let mut cache = Cache::default();
     for _ in 0..edits.clamp(3, 20) {
-        times.whole.add(|| load(&project, &script))?;
+        cache = Cache::default();
+        times.whole.add(|| load(&project, &script, &cache))?;
     }
+    for edit in 0..edits {
+        std::fs::write(&on_disk, variant(edit))?;
+        times.again.add(|| load(&project, &script, &cache))?;
+    }
+    drop(cache);
+    std::fs::write(&on_disk, variant(0))?;
     let options = BenchOptions {
         scene: script,
         ..options.clone()
@@ -140,8 +154,9 @@ pub fn scene(
     Ok(times)
 }
 
-fn load(files: &Files, scene: &str) -> anyhow::Result<Scene> {
-    let loaded = load_scene(files, scene, &Settings::new(), &Progress::new());
+fn load(files: &Files, scene: &str, cache: &Cache) -> anyhow::Result<Scene> {
+    let (settings, progress, limits) = (Settings::new(), Progress::new(), Limits::default());
+    let loaded = load_scene_within(files, scene, &settings, &progress, cache, &limits);
     Ok(loaded?)
 }
 
@@ -150,9 +165,12 @@ fn save(session: &mut Session, path: &Path, text: &str) -> anyhow::Result<f64> {
     let before = session.picture()?;
     let swaps = session.workbench.scenes.swaps();
     let saved = Instant::now();
+
     std::fs::write(path, text).context("the temporary project can't be written")?;
     session.until(|w| w.scenes.swaps() > swaps && w.picture_is_current())?;
+    let t0 = Instant::now();
     session.finish()?;
+    eprintln!("T finish {:?}", t0.elapsed());
     let ms = saved.elapsed().as_secs_f64() * 1e3;
     ensure!(
         session.picture()? != before,

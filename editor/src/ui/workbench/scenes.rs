@@ -209,6 +209,11 @@ impl Scenes {
         self.loading.is_some() || self.wanted
     }
 
+    /// Whether a newer state of the scene on screen is being loaded.
+    pub fn is_renewing(&self) -> bool {
+        self.is_busy() && self.shown.as_deref() == Some(&self.selected)
+    }
+
     fn take(&mut self, result: Result<Scene, Problems>) -> Loaded {
         let Some(loading) = self.loading.take() else {
             return Loaded::Scene { again: true };

@@ -9,6 +9,7 @@ use lightbench_assets::{MaterialId, MeshId, Shared, Texture, TextureId};
 use lightbench_world::{Entity, MeshRenderer, Transform};
 
 use super::data::{Data, Stage};
+use super::recipes::MeshRecipe;
 use super::shapes::MeshHandle;
 use crate::api::{Api, Arguments, Mistake, spell_number, spell_text};
 
@@ -148,13 +149,13 @@ fn missing(path: &str, what: &str, count: usize, number: usize) -> Mistake {
     .with_hint("they are counted from 0")
 }
 
-fn mesh_recipe(path: &str, number: usize, options: &Options) -> String {
+fn mesh_recipe(path: &str, number: usize, options: &Options) -> MeshRecipe {
     let path = spell_text(path);
     if *options == Options::default() {
-        return format!("model_mesh({path}, {number})");
+        return MeshRecipe::Calls(format!("model_mesh({path}, {number})"));
     }
     let degrees = spell_number(f64::from(options.crease_angle).to_degrees());
-    format!("model_mesh({path}, {number}, {degrees})")
+    MeshRecipe::Calls(format!("model_mesh({path}, {number}, {degrees})"))
 }
 
 /// Adds the model to the scene's assets with the recipes of its parts, and passes its warnings on.

@@ -26,7 +26,7 @@ use rhai::{Dynamic, Scope};
 
 use super::data::Stage;
 use super::materials::Material;
-use super::recipes::{self, Recipes};
+use super::recipes::{self, MeshRecipe, Recipes};
 use super::shapes::{MeshHandle, Shape};
 use super::textures::Pattern;
 use super::{Scene, host};
@@ -200,7 +200,7 @@ impl Saved {
             "mesh",
             used.iter()
                 .filter_map(|&id| Some((id, &*assets.mesh(id)?.name))),
-            |id| recipes.meshes.get(&id).cloned(),
+            |id| recipes.meshes.get(&id).map(MeshRecipe::spelled),
             "",
         )?;
         let used: BTreeSet<MaterialId> = renderers.material().iter().copied().collect();

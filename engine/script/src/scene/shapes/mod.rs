@@ -10,8 +10,8 @@ use lightbench_assets::{Mesh, MeshId, Shared};
 use lightbench_world::glam::{UVec2, Vec2, Vec3};
 
 use super::data::{Data, Stage};
-use super::faces;
-use super::recipes::then;
+use super::faces::{self, Corners};
+use super::recipes::MeshRecipe;
 use crate::api::{Api, Arguments, Mistake, ScriptType};
 
 /// The most that a length of a shape may be, in metres.
@@ -64,7 +64,7 @@ enum Kind {
         length: f32,
     },
     Faces {
-        corners: Vec<Vec<Vec3>>,
+        corners: Corners,
     },
     Arch(Arch),
     ArchedWall(ArchedWall),
@@ -149,7 +149,7 @@ struct Plan {
     /// Made at the first use, and shared by all entities that use the shape.
     mesh: Option<MeshId>,
     /// The calls that made it, for files.
-    recipe: Option<String>,
+    recipe: Option<MeshRecipe>,
 }
 
 impl ScriptType for Shape {
@@ -159,11 +159,15 @@ impl ScriptType for Shape {
 impl Shape {
     /// A shape that a call makes.
     fn new(call: &Arguments, kind: Kind) -> Self {
+        let recipe = match &kind {
+            Kind::Faces { corners } => Some(MeshRecipe::Faces(corners.clone(), String::new())),
+            _ => call.spelled().map(MeshRecipe::Calls),
+        };
         Self(Arc::new(Mutex::new(Plan {
             kind,
             repeat: Vec2::ONE,
             mesh: None,
-            recipe: call.spelled(),
+            recipe,
         })))
     }
 
@@ -205,7 +209,7 @@ impl Plan {
     /// comes gets a new one.
     fn changed(&mut self, call: &Arguments) {
         self.mesh = None;
-        self.recipe = then(self.recipe.take(), call);
+        self.recipe = self.recipe.take().and_then(|recipe| recipe.then(call));
     }
 }
 
