@@ -165,12 +165,9 @@ fn save(session: &mut Session, path: &Path, text: &str) -> anyhow::Result<f64> {
     let before = session.picture()?;
     let swaps = session.workbench.scenes.swaps();
     let saved = Instant::now();
-
     std::fs::write(path, text).context("the temporary project can't be written")?;
     session.until(|w| w.scenes.swaps() > swaps && w.picture_is_current())?;
-    let t0 = Instant::now();
     session.finish()?;
-    eprintln!("T finish {:?}", t0.elapsed());
     let ms = saved.elapsed().as_secs_f64() * 1e3;
     ensure!(
         session.picture()? != before,
