@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use lightbench_assets::{Digest, Mesh};
 use lightbench_world::glam::{DVec3, Vec2, Vec3};
+use rhai::Array;
 
 use crate::api::{Arguments, Mistake, spell_call};
 
@@ -55,12 +56,15 @@ impl Corners {
 pub(super) fn read(a: &Arguments) -> Result<Corners, Mistake> {
     let wanted = "an array of faces, each an array of three or more corners, as in \
                   `[[vec3(0, 0, 0), vec3(1, 0, 0), vec3(1, 1, 0)]]`";
+    let wrong = || a.wrong(0, wanted);
     let mut faces = Vec::new();
-    for face in a.array(0)? {
-        let corners = face.into_array().map_err(|_| a.wrong(0, wanted))?;
+    // There may be many: they are read in place.
+    let listed = a.value(0).read_lock::<Array>();
+    for face in listed.ok_or_else(|| a.wrong(0, "an array"))?.iter() {
+        let corners = face.read_lock::<Array>().ok_or_else(wrong)?;
         let mut points = Vec::with_capacity(corners.len());
-        for corner in corners {
-            let point: DVec3 = corner.try_cast().ok_or_else(|| a.wrong(0, wanted))?;
+        for corner in corners.iter() {
+            let point = corner.read_lock::<DVec3>().ok_or_else(wrong)?;
             points.push(point.as_vec3());
         }
         if !(3..=MAX_CORNERS).contains(&points.len()) {

@@ -191,6 +191,7 @@ fn host(
                 stage = Some(made);
             },
             globals: vec![("state", Dynamic::from(state::State::default()))],
+            reuse: reuse.clone(),
         },
     );
     let stage = stage.unwrap_or_else(|| {
