@@ -1,7 +1,7 @@
 // Counts texels of a target, for pipelines that tell where something did not fit.
 //
-// In:  `counted`. A texel counts if its red, green or blue is more than ABOVE 255ths, or, with BELOW
-//      instead, if its red is less than BELOW 255ths.
+// In:  `counted`. A texel counts if its red, green or blue is more than ABOVE 255ths, or, with
+//      BELOW instead, if its red is less than BELOW 255ths.
 // Out: the number, added to word WORD of `totals`.
 // Each workgroup counts its own texels first, so that few of them meet at the total.
 

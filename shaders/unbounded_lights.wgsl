@@ -2,8 +2,8 @@
 //
 // In:  the lights.
 // Out: how many there are, then which, in ascending order.
-// One invocation takes one light after the other, so that they stay in order; it only looks at their
-// kinds.
+// One invocation takes one light after the other, so that they stay in order; it only looks at
+// their kinds.
 #import lightbench::scene
 
 @group(1) @binding(0) var<storage, read_write> unbounded_lights: array<u32>;

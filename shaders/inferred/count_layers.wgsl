@@ -1,8 +1,8 @@
 // Inferred lighting: counts the transparent surfaces that want each texel.
 //
 // In:  a fragment of a transparent object before all opaque ones, in the small buffers.
-// Out: 1/255 to add, at the texels of its layer. Where the sum is more, the nearest surface will take the
-//      texel and the others lose it.
+// Out: 1/255 to add, at the texels of its layer. Where the sum is more, the nearest surface will
+//      take the texel and the others lose it.
 #import lightbench::scene
 #import lightbench::geometry
 #import lightbench::surface

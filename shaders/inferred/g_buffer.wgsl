@@ -1,10 +1,10 @@
 // Inferred lighting, first pass: what light needs to know of a surface, and which surface it is.
 //
-// In:  a fragment of the small buffers; without OBJECT_ID the smooth groups of meshes. With LAYERED the
-//      object is transparent and has a layer.
+// In:  a fragment of the small buffers; without OBJECT_ID the smooth groups of meshes. With LAYERED
+//      the object is transparent and has a layer.
 // Out: normal and Blinn-Phong exponent, packed as shaders/lib/g_buffer.wgsl does; what
-//      shaders/lib/discontinuity.wgsl compares. Of a transparent object only one texel in each 2 × 2.
-// Follows Kircher and Lawrance 2009, "Inferred Lighting", sections 3.1 and 4.
+//      shaders/lib/discontinuity.wgsl compares. Of a transparent object one texel in every 2 × 2.
+// Follows Kircher and Lawrance 2009, "Inferred Lighting".
 #import lightbench::scene
 #import lightbench::geometry
 #import lightbench::surface
@@ -48,8 +48,7 @@ fn fragment_main(
         discard;
     }
 #endif
-    // The fourth coordinate of a fragment is 1 / distance.
-    let distance_ahead = 1.0 / in.clip_position.w;
+    let distance_ahead = scene::distance_ahead(in.world_position);
     return SmallGBuffer(
         packed.normal,
         packed.power,

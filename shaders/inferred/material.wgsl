@@ -1,13 +1,13 @@
 // Inferred lighting, third pass: full-size materials meet light from small buffers.
 //
-// In:  a fragment; the small light buffer, and which surface each of its texels shows. Without OBJECT_ID
-//      the smooth groups of meshes. With LAYERED the object is transparent and reads the texels of its
-//      layer alone, two apart. With UNFILTERED texels of other surfaces count too. With MONOCHROME
-//      highlights take their colour from the diffuse light.
-// Out: linear radiance, and opacity as alpha; the share of the light, as bilinear filtering weighs it, that
-//      came from texels of the surface; 0 where none of the four shows it, so that light of others had
-//      to do.
-// Follows Kircher and Lawrance 2009, "Inferred Lighting", section 3.2.
+// In:  a fragment; the small light buffer, and which surface each of its texels shows. Without
+//      OBJECT_ID the smooth groups of meshes. With LAYERED the object is transparent and reads the
+//      texels of its layer alone, two apart. With UNFILTERED texels of other surfaces count too.
+//      With MONOCHROME highlights take their colour from the diffuse light.
+// Out: linear radiance, and opacity as alpha; the share of the light, as bilinear filtering weighs
+//      it, that came from texels of the surface; 0 where none of the four shows it, so that light
+//      of others had to do.
+// Follows Kircher and Lawrance 2009, "Inferred Lighting".
 #import lightbench::scene
 #import lightbench::geometry
 #import lightbench::surface
@@ -74,15 +74,15 @@ fn fragment_main(
 #ifdef OBJECT_ID
     let group = 0u;
 #endif
-    // The fourth coordinate of a fragment is 1 / distance.
-    let inverse_distance = in.clip_position.w;
+    let distance_ahead = scene::distance_ahead(in.world_position);
+    let inverse_distance = 1.0 / distance_ahead;
     let slope = vec2f(dpdx(inverse_distance), dpdy(inverse_distance));
     let fragment = surface::fragment_surface(in, front_facing);
     let object = scene::drawn_objects[in.drawn];
     let seeker = discontinuity::Seeker(
         inverse_distance,
         slope,
-        discontinuity::pack(1.0 / inverse_distance, object.instance, group),
+        discontinuity::pack(distance_ahead, object.instance, group),
         parameters.depth_tolerance,
     );
 

@@ -1,15 +1,16 @@
-// Discontinuity-sensitive filtering: light of a small buffer is taken for a fragment of a large picture
-// from those texels alone that show the same surface.
+// Discontinuity-sensitive filtering: light of a small buffer is taken for a fragment of a large
+// picture from those texels alone that show the same surface.
 //
-// In:  for each texel of the small buffers, what it shows: a depth, an object and a smooth group, or with
-//      OBJECT_ID an object alone. For a fragment the same, and how its depth changes from pixel to pixel.
+// In:  for each texel of the small buffers, what it shows: a depth, an object and a smooth group,
+//      or with OBJECT_ID an object alone. For a fragment the same, and how its depth changes from
+//      pixel to pixel.
 // Out: whether a texel shows the fragment's surface.
-// Depth is linear, in 16 bits from the camera to the far plane; 0 is nothing. Object and group have 8
-// bits each, so that objects share numbers where there are more than 256; an object alone has 16.
-// Follows Kircher and Lawrance 2009, "Inferred Lighting: Fast Dynamic Lighting and Shadows for Opaque
-// and Translucent Objects"; for objects alone Pettineo's variant of it.
-// Optimizations". A surface's depth is continued along its plane, where 1 / depth is linear, so that
-// slopes are not taken for edges.
+// Depth is linear, in 16 bits from the camera to the far plane; 0 is nothing. Object and group have
+// 8 bits each, so that objects share numbers where there are more than 256; an object alone has 16.
+// Follows Kircher and Lawrance 2009, "Inferred Lighting: Fast Dynamic Lighting and Shadows for
+// Opaque and Translucent Objects"; numbers of objects alone are Pettineo's variant of it. A
+// surface's depth is continued along its plane, where 1 / depth is linear, so that slopes are not
+// taken for edges.
 #define_import_path lightbench::discontinuity
 
 #import lightbench::scene
@@ -17,8 +18,8 @@
 // Where depth ends if the far plane is farther or infinite.
 const FARTHEST: f32 = 10000.0;
 
-// The layers that transparent objects are stippled into: texels of each 2 × 2 that have odd numbers in
-// x, in y, or in both. The others are always those of opaque objects.
+// The layers that transparent objects are stippled into: texels of each 2 × 2 that have odd numbers
+// in x, in y, or in both. The others are always those of opaque objects.
 fn place_of_layer(layer: u32) -> vec2u {
     let place = layer + 1u;
     return vec2u(place & 1u, place >> 1u);

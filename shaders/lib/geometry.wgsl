@@ -1,8 +1,8 @@
 // What the vertex stage of a geometry pass hands to the fragment stage.
 //
 // In:  mesh vertices, in two streams: positions alone, then everything else.
-// Out: `Vertex`, `VertexOutput` and `transform_vertex`; and the same with a mark that the whole triangle
-//      has, for `#import lightbench::geometry`.
+// Out: `Vertex`, `VertexOutput` and `transform_vertex`; and the same with a mark that the whole
+//      triangle has, for `#import lightbench::geometry`.
 #define_import_path lightbench::geometry
 
 #import lightbench::scene

@@ -1,15 +1,15 @@
 // Numbers of lights in the texels of pictures: a few for each pixel, each of 8 bits.
 //
 // In:  numbers from 1 to 255; 0 is no light. CAPACITY is how many a pixel has room for: 4 in one
-//      picture, 8 in two. With ARRAYS each channel holds one number; without, lights are blended over
-//      one another and each number is spread over all channels.
+//      picture, 8 in two. With ARRAYS each channel holds one number; without, lights are blended
+//      over one another and each number is spread over all channels.
 // Out: what a light writes; the numbers in a texel.
 // Packing by blending: a light writes its number's bits into the upper end of the channels, 2 bits
 // into each of four, or 1 bit into each of eight; blending first moves down what is there, by the
 // constant factor 1/4 or 1/2. So the light drawn last is in the uppermost bits.
-// Follows Trebilco 2007, "Light Indexed Deferred Rendering", whose factor of 0.251 instead of 1/4 keeps
-// units exact that cut off where they should round. A twin lies in
-// engine/lab/src/reference/index_packing.rs.
+// Follows Trebilco 2007, "Light Indexed Deferred Rendering". His factor of 0.251 in place of 1/4 is
+// 64 of 255: units that keep it in 8 bits, or cut off where they should round, are exact too. A twin
+// lies in engine/lab/src/reference/index_packing.rs.
 #define_import_path lightbench::index_packing
 
 const CAPACITY: u32 = #{CAPACITY}u;
@@ -62,7 +62,8 @@ fn unpack(texels: Texels) -> array<u32, CAPACITY> {
     return numbers;
 }
 
-// In ascending order, so that light is added in the same order everywhere. By insertion: they are few.
+// In ascending order, so that light is added in the same order everywhere. By insertion: they are
+// few.
 fn sort(unsorted: array<u32, CAPACITY>) -> array<u32, CAPACITY> {
     var numbers = unsorted;
     for (var i = 1u; i < CAPACITY; i++) {

@@ -1,6 +1,7 @@
 // Meshes as shaders fetch them: vertices and triangles from the engine's buffers.
 //
-// In:  an instance, which knows where its mesh lies; the number of a corner: three for each triangle.
+// In:  an instance, which knows where its mesh lies; the number of a corner: three for each
+//      triangle.
 // Out: the vertex at that corner, as a vertex buffer would hand it to the vertex stage.
 // Called by passes that draw with .pull_vertices, and by passes that look up triangles themselves.
 #define_import_path lightbench::mesh

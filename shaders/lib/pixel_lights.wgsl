@@ -1,7 +1,7 @@
 // The lights of a pixel, from the numbers that are kept for it.
 //
-// In:  the pictures of numbers and the count of lights; the light of each number; the lights without a
-//      range. CAPACITY and ARRAYS as in shaders/lib/index_packing.wgsl.
+// In:  the pictures of numbers and the count of lights; the light of each number; the lights
+//      without a range. CAPACITY and ARRAYS as in shaders/lib/index_packing.wgsl.
 // Out: what all these lights make a surface send to the viewer; whether lights were lost.
 #define_import_path lightbench::pixel_lights
 

@@ -137,6 +137,11 @@ fn clip_position(position: vec3f) -> vec4f {
     return frame.view_projection * vec4f(position, 1.0);
 }
 
+// Distance along the view, metres.
+fn distance_ahead(position: vec3f) -> f32 {
+    return -(frame.view * vec4f(position, 1.0)).z;
+}
+
 // World position of a pixel from its reversed depth. `pixel` is @builtin(position).xy.
 fn position_from_depth(pixel: vec2f, resolution: vec2f, depth: f32) -> vec3f {
     let ndc = vec2f(pixel.x / resolution.x * 2.0 - 1.0, 1.0 - pixel.y / resolution.y * 2.0);

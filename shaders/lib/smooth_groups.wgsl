@@ -1,8 +1,8 @@
 // Smooth groups: which part of a mesh, between its hard edges, a vertex belongs to.
 //
 // In:  the number of a vertex among those of all meshes: @builtin(vertex_index) of an indexed draw.
-// Out: its group, 0 to 255, the same for all corners of a triangle. Meshes of more groups use numbers
-//      twice.
+// Out: its group, 0 to 255, the same for all corners of a triangle. Meshes of more groups use
+//      numbers twice.
 // The engine finds groups once for each mesh and keeps a byte for each vertex.
 #define_import_path lightbench::smooth_groups
 

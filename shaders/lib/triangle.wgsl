@@ -1,12 +1,14 @@
 // Where a line of sight meets a triangle, and how that changes from pixel to pixel.
 //
-// In:  a corner of the triangle in view space, where the eye is the origin, and the edges from it to the
-//      other two; the direction of a pixel's line of sight, and its change to the neighbouring pixels.
+// In:  a corner of the triangle in view space, where the eye is the origin, and the edges from it
+//      to the other two; the direction of a pixel's line of sight, and its change to the
+//      neighbouring pixels.
 // Out: the weights of the three corners, correct in perspective, and their derivatives.
-// Follows Möller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection", journal of graphics
-// tools 2(1). There each weight is a quotient of products with the direction; the direction is linear
-// in the pixel, so the quotient rule gives the derivatives, as Burns and Hunt 2013 want them, "The
-// Visibility Buffer", JCGT 2(2). A twin lies in engine/lab/src/reference/triangle.rs.
+// Follows Möller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection", journal of
+// graphics tools 2(1). There each weight is a quotient of products with the direction; the
+// direction is linear in the pixel, so the quotient rule gives the derivatives, as Burns and Hunt
+// 2013 want them, "The Visibility Buffer", JCGT 2(2). A twin lies in
+// engine/lab/src/reference/triangle.rs.
 #define_import_path lightbench::triangle
 
 struct Triangle {

@@ -2,10 +2,10 @@
 //
 // In:  an object's row and the number of a triangle of its mesh; or a texel.
 // Out: the other. Two whole numbers of 32 bits, or with COMPACT one, of which each gets half.
-// A texel of zeros shows nothing. With COMPACT, that is also what objects beyond 65,535 and triangles
-// beyond 65,536 leave.
-// Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading",
-// JCGT 2(2).
+// A texel of zeros shows nothing. With COMPACT, that is also what objects beyond 65,535 and
+// triangles beyond 65,536 leave.
+// Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred
+// Shading", JCGT 2(2).
 #define_import_path lightbench::visibility
 
 struct Visible {

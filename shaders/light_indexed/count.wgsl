@@ -1,5 +1,5 @@
-// Light indexing by arrays: counts the lights that reach each pixel, so that it shows where one found
-// no room in any array.
+// Light indexing by arrays: counts the lights that reach each pixel, so that it shows where one
+// found no room in any array.
 //
 // In:  the light; depth, unless ANY_DEPTH.
 // Out: 1/255, to add.

@@ -1,4 +1,5 @@
-// Light-indexed deferred shading: each pixel of the G-buffer sums the lights whose numbers it holds.
+// Light-indexed deferred shading: each pixel of the G-buffer sums the lights whose numbers it
+// holds.
 //
 // In:  depth and G-buffer; what shaders/lib/pixel_lights.wgsl reads.
 // Out: radiance to add to what the surface emits; 1 where lights were lost.

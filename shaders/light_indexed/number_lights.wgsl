@@ -2,10 +2,10 @@
 //
 // In:  the lights.
 // Out: for each light its number, from 1 to 255 in the order of the lights, or 0: lights without a
-//      range and those out of view need none, and those beyond 255 get none; the light of each number;
-//      how many lights have a number and how many went without.
-// One workgroup goes through the lights, as many at a time as it has invocations, and each light looks
-// how many before it are in view.
+//      range and those out of view need none, and those beyond 255 get none; the light of each
+//      number; how many lights have a number and how many went without.
+// One workgroup goes through the lights, as many at a time as it has invocations, and each light
+// looks how many before it are in view.
 // Follows Trebilco 2007, "Light Indexed Deferred Rendering".
 #import lightbench::scene
 #import lightbench::culling

@@ -3,7 +3,8 @@
 // In:  corners, three for each triangle; the vertex stage fetches their vertices.
 // Out: object and triangle, as shaders/lib/visibility.wgsl packs them. With ALPHA_TEST fragments in
 //      holes are discarded as everywhere else.
-// Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading".
+// Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred
+// Shading".
 #import lightbench::scene
 #import lightbench::geometry
 #import lightbench::surface

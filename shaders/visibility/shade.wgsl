@@ -1,13 +1,14 @@
-// Visibility buffer, second pass: each pixel fetches its triangle, makes the surface there and sums the
-// lights of its cluster.
+// Visibility buffer, second pass: each pixel fetches its triangle, makes the surface there and sums
+// the lights of its cluster.
 //
 // In:  the visibility buffer; meshes; the lists of clusters. TILE and SLICES as in
 //      shaders/lib/clusters.wgsl. With COMPACT also depth.
-// Out: linear radiance, black where there is nothing. With COMPACT 1 where there is something without
-//      a number, which is black too.
-// It is a compute pass since meshes, lists and scene take eight storage buffers, all that every adapter
-// binds, and fragment stages see more of the scene than compute shaders do.
-// Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading".
+// Out: linear radiance, black where there is nothing. With COMPACT 1 where there is something
+//      without a number, which is black too.
+// It is a compute pass since meshes, lists and scene take eight storage buffers, all that every
+// adapter binds, and fragment stages see more of the scene than compute shaders do.
+// Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred
+// Shading".
 #import lightbench::scene
 #import lightbench::geometry
 #import lightbench::surface
@@ -93,8 +94,8 @@ fn compute_main(@builtin(global_invocation_id) thread: vec3u) {
     let point = surface::point_surface(point_at(pixel, visible));
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - point.position);
 
-    let distance_ahead = -(scene::frame.view * vec4f(point.position, 1.0)).z;
-    let list = cluster_lists[clusters::cluster_of(pixel, distance_ahead)];
+    let cluster = clusters::cluster_of(pixel, scene::distance_ahead(point.position));
+    let list = cluster_lists[cluster];
     var radiance = point.emissive;
     for (var i = list.x; i < list.x + list.y; i++) {
         let light = scene::lights[cluster_lights[i]];

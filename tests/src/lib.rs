@@ -5,6 +5,8 @@
 // A test stops where something is wrong; there is nobody to hand an error to.
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc)]
 
+pub mod compare;
+
 use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
 use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, View};
@@ -150,6 +152,43 @@ pub fn project(files: &[(&str, &str)]) -> (tempfile::TempDir, Files) {
         std::fs::write(path, text).unwrap();
     }
     let files = Files::with_project(folder.path()).unwrap();
+    (folder, files)
+}
+
+/// The scene of [`hard_shapes`].
+const SHAPES: &str = "
+let cloth = material(\"cloth\").surface(weave_texture()).specular(0.1).power(60).two_sided();
+let stone = material(\"stone\").surface(tiles_texture().pieces(3)).specular(0.2).power(90);
+let leaf = material(\"leaf\").texture(picture(\"leaf.tga\")).cutoff(0.5).two_sided().specular(0.1);
+spawn(\"floor\").mesh(plane(200, 200)).material(stone).at(0, -1, 0);
+spawn(\"near\").mesh(plane(3, 3)).material(stone).at(0, -0.2, 4.9);
+spawn(\"mirrored\").mesh(torus(0.6, 0.25)).material(stone).at(-2.2, 0.2, 0).scale(-1, 1.4, 0.7);
+spawn(\"cloth\").mesh(plane(2, 2)).material(cloth).at(0, 0.4, -1).turn(-70, 20, 0);
+spawn(\"behind\").mesh(plane(2, 2)).material(cloth).at(2.2, 0.4, -1).turn(80, 190, 10);
+spawn(\"leaf\").mesh(plane(1.5, 1.5)).material(leaf).at(1.2, 0.3, 1.5).turn(75, 0, 0);
+spawn(\"ball\").mesh(sphere(0.5).segments(96, 48)).material(stone).at(-0.9, -0.2, 1.6);
+point_light(\"lamp\").at(1, 2, 3).range(12).intensity(9);
+point_light(\"other\").at(-3, 1, 1).range(9).intensity(6).color(0.4, 0.6, 1);
+ambient_light(\"sky\").color(0.6, 0.7, 1).intensity(0.1);
+camera(\"eye\").at(0, 0.8, 5).look_at(0, 0, 0).fov(55).near(0.1).far(90);
+";
+
+/// A green picture full of round holes, as a TGA file of 32 bits a pixel.
+fn leaf() -> Vec<u8> {
+    let mut bytes = vec![0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64, 0, 64, 0, 32, 0x28];
+    for pixel in 0..64 * 64_i32 {
+        let (x, y) = (pixel % 64 % 16 - 8, pixel / 64 % 16 - 8);
+        let alpha = if x * x + y * y < 30 { 0 } else { 255 };
+        bytes.extend([40, 160, 60, alpha]);
+    }
+    bytes
+}
+
+/// A project with the scene `shapes`, whose surfaces are hard to find: mirrored, scaled unevenly, seen
+/// from behind, full of holes, cut by the near plane, bumpy, with large and small triangles.
+pub fn hard_shapes() -> (tempfile::TempDir, Files) {
+    let (folder, files) = project(&[("scripts/scenes/shapes.rhai", SHAPES)]);
+    std::fs::write(folder.path().join("leaf.tga"), leaf()).unwrap();
     (folder, files)
 }
 

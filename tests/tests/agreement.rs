@@ -2,9 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use lightbench::assets::files::Files;
-use lightbench::lab::{HdrImage, LdrImage, diff};
+use lightbench::lab::{HdrImage, diff};
 use lightbench::render::TargetImage;
 use lightbench::script::list_pipelines;
+use lightbench_tests::compare::{
+    flip_mean, mean_difference, order_bound, relative_difference, share_beyond,
+};
 use lightbench_tests::{Studio, gpu, settings};
 
 const SIZE: (u32, u32) = (320, 180);
@@ -59,64 +62,6 @@ enum Room {
     Short,
     /// None does.
     Enough,
-}
-
-/// The largest difference of two linear pictures, relative to the brighter of the two values and
-/// to a thousandth of the brightest value of all: darker ones nobody sees.
-fn relative_difference(a: &TargetImage, b: &TargetImage) -> f32 {
-    let brightest = a.texels.iter().flat_map(|texel| &texel[..3]).copied();
-    let floor = brightest.fold(0.0_f32, f32::max) * 1e-3;
-    let pairs = a.texels.iter().zip(&b.texels);
-    pairs
-        .flat_map(|(a, b)| (0..3).map(|channel| (a[channel], b[channel])))
-        .map(|(a, b)| (a - b).abs() / a.abs().max(b.abs()).max(floor).max(1e-9))
-        .fold(0.0, f32::max)
-}
-
-/// The share of the pixels that differ by more than a bound, relative to the brighter value.
-fn share_beyond(a: &TargetImage, b: &TargetImage, bound: f32) -> f64 {
-    let differs = |(a, b): &(&[f32; 4], &[f32; 4])| {
-        (0..3).any(|channel| {
-            let (a, b) = (a[channel], b[channel]);
-            (a - b).abs() > bound * a.abs().max(b.abs())
-        })
-    };
-    let beyond = a.texels.iter().zip(&b.texels).filter(differs).count();
-    beyond as f64 / a.texels.len() as f64
-}
-
-/// The same, but the mean over all values instead of the largest.
-fn mean_difference(a: &TargetImage, b: &TargetImage) -> f64 {
-    let values = |image: &TargetImage| -> Vec<f64> {
-        let texels = image.texels.iter().flat_map(|texel| &texel[..3]);
-        texels.map(|value| f64::from(*value)).collect()
-    };
-    let (a, b) = (values(a), values(b));
-    let sum: f64 = a.iter().sum::<f64>().max(1e-9);
-    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
-    differences.sum::<f64>() / sum
-}
-
-fn flip_mean(a: &[u8], b: &[u8]) -> f64 {
-    let picture = |bytes: &[u8]| {
-        let pixels = bytes
-            .chunks_exact(4)
-            .map(|p| [p[0], p[1], p[2], p[3]])
-            .collect();
-        LdrImage::new(SIZE.0, SIZE.1, pixels).unwrap()
-    };
-    let options = diff::DiffOptions::default();
-    diff::diff_ldr(&picture(a), &picture(b), options)
-        .unwrap()
-        .difference
-        .flip
-        .mean
-}
-
-/// Additions in another order, in 32 bits: each sum rounds by 2⁻²⁴ of itself, on either side. The
-/// evaluation of a light itself takes some more operations.
-fn order_bound(lights: usize) -> f32 {
-    (lights as f32 + 8.0) * (-23.0_f32).exp2()
 }
 
 /// The share of the pixels in which two surfaces touch: edges of the atrium's stones.
@@ -252,7 +197,7 @@ fn agree_among(
         let touching = share_beyond(&reference.linear, &compared.linear, bound);
         let compared = picture.without_marked(forward);
         let mean = mean_difference(&forward.linear, &compared.linear);
-        let flip = flip_mean(&forward.output, &compared.output);
+        let flip = flip_mean(&forward.output, &compared.output, SIZE);
         println!(
             "  {name:24} {surfaces:?}: order {order:.2e}, mean {mean:.2e}, FLIP {flip:.5}, \
              {lost} pixels masked"
@@ -305,7 +250,7 @@ fn on_the_cornell_box() {
 /// Pipelines with room for few lights a pixel, both ways of packing, on scenes that need no more.
 #[test]
 fn within_their_capacity_nothing_is_lost() {
-    const LIMITED: [(&str, Surfaces, &[&str]); 8] = [
+    const LIMITED: [(&str, Surfaces, &[&str]); 10] = [
         ("forward_single_pass", Surfaces::Exact, &[]),
         ("deferred_shading", Surfaces::GBuffer, &[]),
         (
@@ -322,6 +267,16 @@ fn within_their_capacity_nothing_is_lost() {
             "light_indexed_forward",
             Surfaces::Exact,
             &["packing=arrays", "lights_per_pixel=8"],
+        ),
+        (
+            "light_indexed_forward",
+            Surfaces::Exact,
+            &["transparency=forward"],
+        ),
+        (
+            "light_indexed_deferred",
+            Surfaces::GBuffer,
+            &["transparency=forward"],
         ),
         (
             "light_indexed_deferred",
@@ -344,6 +299,7 @@ fn within_their_capacity_nothing_is_lost() {
         ("many_lights", &["lights=256", "range=0.8"]),
         ("cornell_box", &["lamps=2"]),
         ("atrium", &["lights=6"]),
+        ("hard_cases", &["case=panes"]),
     ] {
         for portable in [false, true] {
             agree_among(&LIMITED, scene, texts, portable, Room::Enough);
@@ -379,34 +335,6 @@ fn on_the_hard_cases() {
 fn on_hard_cases_with_portable_features_only() {
     for case in ["camera_inside", "far_plane", "wide_spot", "panes"] {
         agree("hard_cases", &[&format!("case={case}")], true, Room::Enough);
-    }
-}
-
-/// Both stencil schemes where the camera or a plane of the view cuts a volume, and with more lights
-/// than there are marks.
-#[test]
-fn stencil_schemes_light_the_same_pixels() {
-    let cases = [
-        ("hard_cases", "case=camera_inside"),
-        ("hard_cases", "case=near_plane"),
-        ("hard_cases", "case=far_plane"),
-        ("hard_cases", "case=wide_spot"),
-        ("many_lights", "lights=600"),
-    ];
-    for (scene, case) in cases {
-        let mut studio = Studio::new(scene, &settings(&[case]));
-        let mut hdr = |pipeline: &str, texts: &[&str]| studio.hdr(pipeline, &settings(texts), SIZE);
-        let full = "accumulation=rgba32float";
-        let deferred = hdr("deferred_shading", &[full]);
-        for scheme in ["volume_stencil=two_pass", "volume_stencil=inverse"] {
-            let other = hdr("deferred_shading", &[full, scheme, "threshold=0"]);
-            let order = relative_difference(&deferred, &other);
-            assert!(order <= order_bound(600), "{case} {scheme}: {order}");
-        }
-        let forward = hdr("forward_single_pass", &[full]);
-        let masked = hdr("forward_multi_pass", &[full, "stencil_mask=on"]);
-        let order = relative_difference(&forward, &masked);
-        assert!(order <= order_bound(600), "{case} stencil_mask: {order}");
     }
 }
 
@@ -461,95 +389,6 @@ fn every_shipped_pipeline_is_compared() {
     }
 }
 
-/// Options of one pipeline that must not change its picture. With 32-bit accumulation the
-/// order of additions is all that differs.
-#[test]
-fn options_that_only_change_the_cost_change_no_pixel() {
-    let mut studio = Studio::new("many_lights", &settings(&["lights=64"]));
-    let mut hdr = |pipeline: &str, texts: &[&str]| studio.hdr(pipeline, &settings(texts), SIZE);
-    let full = "accumulation=rgba32float";
-    let forward = hdr("forward_single_pass", &[full]);
-    for texts in [[full, "depth_prepass=on"], [full, "gather_lights=off"]] {
-        close(
-            &forward,
-            &hdr("forward_single_pass", &texts),
-            &format!("{texts:?}"),
-        );
-    }
-    for texts in [
-        &["lights_at_once=1", "scissor=off"][..],
-        &["lights_at_once=1", "stencil_mask=on"],
-        &["lights_at_once=2"],
-        &["lights_at_once=4"],
-        &["lights_at_once=8", "scissor=off"],
-    ] {
-        let multi = hdr("forward_multi_pass", &[texts, &[full]].concat());
-        close(&forward, &multi, &format!("{texts:?}"));
-    }
-    for texts in [
-        [full, "tile_size=8"],
-        [full, "tile_size=32"],
-        [full, "depth_mask=on"],
-    ] {
-        let text = format!("{texts:?}");
-        let tiled = hdr("tiled_forward", &[&texts[..], &["capacity=1024"]].concat());
-        close(&forward, &tiled, &text);
-        close(
-            &hdr("tiled_deferred", &[full]),
-            &hdr("tiled_deferred", &texts),
-            &text,
-        );
-    }
-    for texts in [
-        [full, "tile_size=32", "slices=64"],
-        [full, "tile_size=128", "slices=16"],
-    ] {
-        let text = format!("{texts:?}");
-        close(&forward, &hdr("clustered_forward", &texts), &text);
-    }
-    for texts in [
-        [full, "layers=3d", "capacity=256", "cell_size=1"],
-        [full, "layers=2d", "capacity=1024", "cell_size=8"],
-    ] {
-        let text = format!("{texts:?}");
-        close(&forward, &hdr("world_indexed_forward", &texts), &text);
-    }
-    let fetched = hdr("visibility_buffer", &[full]);
-    for texts in [
-        [full, "numbers=compact"],
-        [full, "tile_size=32"],
-        [full, "slices=64"],
-    ] {
-        close(
-            &fetched,
-            &hdr("visibility_buffer", &texts),
-            &format!("{texts:?}"),
-        );
-    }
-    let deferred = hdr("deferred_shading", &[full]);
-    for texts in [
-        &["light_volumes=off"][..],
-        &["volume_stencil=two_pass", "threshold=0"],
-        &["volume_stencil=inverse", "threshold=0"],
-        &["volume_stencil=inverse", "threshold=0.3"],
-    ] {
-        let other = hdr("deferred_shading", &[texts, &[full]].concat());
-        close(&deferred, &other, &format!("{texts:?}"));
-    }
-}
-
-fn close(a: &TargetImage, b: &TargetImage, what: &str) {
-    for (index, (a, b)) in a.texels.iter().zip(&b.texels).enumerate() {
-        for channel in 0..3 {
-            let (a, b) = (a[channel], b[channel]);
-            assert!(
-                (a - b).abs() <= 1e-5 * a.abs().max(b.abs()) + 1e-7,
-                "{what}, pixel {index}: {a} and {b}"
-            );
-        }
-    }
-}
-
 /// Must-fail twins: the comparison sees a shifted pixel column and a missing light.
 #[test]
 fn the_comparison_notices_what_must_not_pass() {
@@ -557,10 +396,10 @@ fn the_comparison_notices_what_must_not_pass() {
     let picture = studio.output("deferred_shading", &settings(&[]), SIZE);
     let mut shifted = picture.clone();
     shifted.rotate_right(4);
-    assert!(flip_mean(&picture, &shifted) > 0.01);
+    assert!(flip_mean(&picture, &shifted, SIZE) > 0.01);
     let mut darker = Studio::new("many_lights", &settings(&["lights=56"]));
     let darker = darker.output("deferred_shading", &settings(&[]), SIZE);
-    assert!(flip_mean(&picture, &darker) > 0.01);
+    assert!(flip_mean(&picture, &darker, SIZE) > 0.01);
 }
 
 #[test]

@@ -5,7 +5,8 @@
 use std::f32::consts::PI;
 
 use lightbench::render::TargetImage;
-use lightbench_tests::{Counts, Studio, gpu, project, settings};
+use lightbench_tests::compare::mean_difference;
+use lightbench_tests::{Counts, Studio, gpu, hard_shapes, project, settings};
 
 const PIPELINE: &str = "inferred_lighting";
 const FULL: &str = "accumulation=rgba32float";
@@ -111,14 +112,21 @@ fn four_samples_mix_the_sides_and_nothing_else() {
 
 #[test]
 fn full_size_buffers_give_the_picture_of_deferred_lighting() {
+    let (_folder, files) = hard_shapes();
     for (scene, texts) in [
-        ("atrium", &[][..]),
+        ("shapes", &[][..]),
+        ("atrium", &[]),
         ("many_lights", &["lights=64"]),
         ("cornell_box", &[]),
         ("hard_cases", &["case=wide_spot"]),
         ("hard_cases", &["case=panes"]),
     ] {
-        let mut studio = Studio::new(scene, &settings(texts));
+        let mut studio = Studio::new("hard_cases", &settings(&["case=no_objects"]));
+        if scene == "shapes" {
+            studio.show(files.clone(), scene);
+        } else {
+            studio = Studio::new(scene, &settings(texts));
+        }
         for highlights in ["highlights=color", "highlights=monochrome"] {
             let plain = settings(&[FULL, highlights]);
             let expected = studio.hdr("deferred_lighting", &plain, SIZE);
@@ -140,8 +148,8 @@ fn full_size_buffers_give_the_picture_of_deferred_lighting() {
     }
 }
 
-/// Panes that are turned by different angles, one behind the other, before a wall; the sun shines along
-/// the view. Each is so large that it fills the middle of the picture.
+/// Panes that are turned by different angles, one behind the other, before a wall; the sun shines
+/// along the view. Each is so large that it fills the middle of the picture.
 fn panes(count: usize) -> String {
     let mut scene = String::from(
         "directional_light(\"sun\").at(0, 0, 1).look_at(0, 0, 0).color(1, 1, 1).intensity(3);
@@ -232,8 +240,8 @@ fn three_stacked_panes_recover_the_light_of_each_layer() {
 fn a_fourth_pane_loses_its_light_and_is_counted() {
     let mut studio = studio(&panes(4));
     let (found, acceptance, counts) = draw(&mut studio, &[FULL]);
-    // It shares its layer, a quarter of the texels, with the nearest one: of these it loses all that
-    // both cover, at least those in the middle of the picture.
+    // It shares its layer, a quarter of the texels, with the nearest one: of these it loses all
+    // that both cover, at least those in the middle of the picture.
     let lost = counts.of("texels_of_lost_layers");
     let texels = SIZE.0 * SIZE.1 / 4;
     println!("{lost} of {texels} texels lost a layer");
@@ -268,15 +276,6 @@ fn pictures_smaller_than_a_pattern_draw() {
             }
         }
     }
-}
-
-/// The mean of the differences, relative to the mean of the light.
-fn mean_difference(a: &TargetImage, b: &TargetImage) -> f64 {
-    let sum = |of: &dyn Fn(usize, usize) -> f32| -> f64 {
-        let all = (0..a.texels.len()).flat_map(|i| (0..3).map(move |c| (i, c)));
-        all.map(|(i, c)| f64::from(of(i, c))).sum()
-    };
-    sum(&|i, c| (a.texels[i][c] - b.texels[i][c]).abs()) / sum(&|i, c| a.texels[i][c])
 }
 
 /// Half the width and height lose detail of normals and highlights; the filter must lose less than

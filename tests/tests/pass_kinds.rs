@@ -475,42 +475,6 @@ fn no_channel_of_the_arrays_holds_two_lights() {
     }
 }
 
-/// Adds 1 where the line of sight meets the light's range.
-const IN_SIGHT: &str = "#import lightbench::scene
-@fragment fn fragment_main(
-    @builtin(position) pixel: vec4f,
-    @location(0) @interpolate(flat) index: u32,
-) -> @location(0) vec4f {
-    let far = scene::position_from_depth(pixel.xy, scene::frame.resolution, 0.0);
-    let eye = scene::frame.camera_position;
-    let light = scene::lights[index];
-    let away = cross(normalize(far - eye), light.position - eye);
-    return vec4f(select(0.0, 1.0, length(away) < light.range));
-}";
-
-#[test]
-fn at_any_depth_no_channel_of_the_arrays_holds_two_lights_either() {
-    let size = (160, 90);
-    let body = |more: &str| {
-        lights_body(&format!(".any_depth(true){more}")).replace(".reads(\"depth\")", "")
-    };
-    let draw = |body: &str| {
-        let mut bench = Bench::new(body, &[("inside", IN_SIGHT)]);
-        // Many small ones, so that some that are apart in space are one before the other.
-        let settings = Settings::new().with("lights", "40").with("range", 1.2);
-        let scene = load_scene(&bench.files, "many_lights", &settings, &Progress::default());
-        bench.scene = scene.unwrap();
-        bench.lit(size)
-    };
-    let (all, spread) = (draw(&body("")), draw(&body(".arrays(4)")));
-    let apart = draw(&lights_body(".arrays(4)").replace(".reads(\"depth\")", ""));
-    let most = |texels: &[[f32; 4]]| texels.iter().flatten().copied().fold(0.0, f32::max);
-    assert!(most(&apart) > 1.0, "the scene shows no difference");
-    assert_eq!(most(&spread), 1.0);
-    let sum = |texels: &[[f32; 4]]| texels.iter().map(|t| t.iter().sum::<f32>()).sum::<f32>();
-    assert!(sum(&spread) <= sum(&all) / 4.0, "none is drawn twice");
-}
-
 #[test]
 fn any_depth_covers_what_lies_before_and_behind_the_surface() {
     // Without reading depth: 1 for every light whose volume covers the pixel.
@@ -534,82 +498,5 @@ fn any_depth_covers_what_lies_before_and_behind_the_surface() {
         "{} {}",
         sum(&any),
         sum(&tested)
-    );
-}
-
-#[test]
-fn pulled_vertices_land_where_indexed_ones_do() {
-    // Depth by vertex buffers; then a pass that fetches the same vertices and passes where its
-    // depth is equal. Each fragment tells its triangle.
-    let body = "
-        p.target(\"depth\", \"depth32float\");
-        p.target(\"result\", \"rgba32float\");
-        p.geometry(\"prepass\").depth(\"depth\").clear(0.0);
-        p.geometry(\"pulled\").shader(\"shaders/pulled.wgsl\").pull_vertices(true)
-            .writes(\"result\").clear(0, 0, 0, 0)
-            .depth(\"depth\").test(\"equal\").read_only();
-        p.target(\"covered\", \"r32float\");
-        p.fullscreen(\"cover\").shader(\"shaders/cover.wgsl\").reads(\"depth\").writes(\"covered\");";
-    let pulled = "#import lightbench::scene
-        #import lightbench::mesh
-        struct Pulled {
-            @builtin(position) @invariant clip_position: vec4f,
-            @location(0) @interpolate(flat) triangle: u32,
-            @location(1) @interpolate(flat) instance: u32,
-        }
-        @vertex fn vertex_main(
-            @builtin(vertex_index) corner: u32,
-            @builtin(instance_index) drawn: u32,
-        ) -> Pulled {
-            let row = scene::drawn_objects[drawn].instance;
-            let instance = scene::instances[row];
-            let position = mesh::position_of(mesh::vertex_at(instance, corner));
-            let world = scene::world_position(instance, position);
-            return Pulled(scene::clip_position(world), corner / 3u, row);
-        }
-        @fragment fn fragment_main(in: Pulled) -> @location(0) vec4f {
-            return vec4f(1.0, f32(in.triangle), f32(in.instance), 0.0);
-        }";
-    let cover = "@group(1) @binding(0) var depth: texture_depth_2d;
-        @fragment fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-            return vec4f(f32(textureLoad(depth, vec2u(pixel.xy), 0) > 0.0), 0.0, 0.0, 0.0);
-        }";
-    let mut bench = Bench::new(body, &[("pulled", pulled), ("cover", cover)]);
-    let mut pipeline = bench.pipeline();
-    let view = View::from_world(&bench.scene.world).unwrap();
-    let (world, assets) = (&mut bench.scene.world, &bench.scene.assets);
-    bench
-        .renderer
-        .render(world, assets, &mut pipeline, &view, (160, 90), 0.0)
-        .unwrap();
-    let read = |name| bench.renderer.read_target(&pipeline, name).unwrap().texels;
-    let (result, covered) = (read("result"), read("covered"));
-    assert!(covered.iter().any(|texel| texel[0] == 1.0));
-    for (index, (pulled, covered)) in result.iter().zip(&covered).enumerate() {
-        assert_eq!(pulled[0], covered[0], "pixel {index}");
-    }
-    // The first object is the floor, of two triangles; spheres have 32 × 16 facets.
-    let of = |instance: f32| {
-        result
-            .iter()
-            .filter(move |t| t[0] == 1.0 && t[2] == instance)
-    };
-    let most = |instance| of(instance).map(|texel| texel[1]).fold(0.0, f32::max);
-    assert_eq!(most(0.0), 1.0);
-    assert!((1..257).any(|sphere| most(sphere as f32) > 200.0));
-}
-
-#[test]
-fn a_pass_that_pulls_vertices_needs_a_vertex_stage_that_fetches_them() {
-    let body = "p.target(\"result\", \"r32float\");
-        p.geometry(\"draw\").shader(\"shaders/pattern.wgsl\").pull_vertices(true)
-            .writes(\"result\").clear(0, 0, 0, 0);";
-    let bench = Bench::new(body, &[]);
-    let desc = load_pipeline(&bench.files, "test", &Settings::new()).unwrap();
-    let problems = bench.renderer.compiler().compile(&bench.files, &desc);
-    let message = problems.unwrap_err().0[0].message.clone();
-    assert_eq!(
-        message,
-        "`draw` pulls its vertices, but `shaders/pattern.wgsl` has no vertex stage that fetches them"
     );
 }

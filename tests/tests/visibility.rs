@@ -1,25 +1,83 @@
-//! The visibility buffer: the triangle that a pixel names is the one that it shows, and the point that
-//! is found on it is the one that the rasteriser would have interpolated.
+//! The visibility buffer: the triangle that a pixel names is the one that it shows, and the point
+//! that is found on it is the one that the rasteriser would have interpolated.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DMat4, DVec3, DVec4};
 use lightbench::lab::reference::triangle::Triangle;
-use lightbench::render::TargetImage;
-use lightbench::script::Settings;
-use lightbench_tests::{Studio, gpu, project, settings};
+use lightbench::script::{Settings, load_pipeline};
+use lightbench_tests::compare::mean_difference;
+use lightbench_tests::{Studio, gpu, hard_shapes, project, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 const FULL: &str = "accumulation=rgba32float";
 
-/// The mean of the differences, relative to the mean of the light.
-fn mean_difference(a: &TargetImage, b: &TargetImage) -> f64 {
-    let values = |image: &TargetImage| -> Vec<f64> {
-        let texels = image.texels.iter().flat_map(|texel| &texel[..3]);
-        texels.map(|value| f64::from(*value)).collect()
-    };
-    let (a, b) = (values(a), values(b));
-    let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
-    differences.sum::<f64>() / a.iter().sum::<f64>()
+/// Depth by vertex buffers; then a pass that fetches the same vertices and passes where its depth
+/// is equal.
+const PULLING: &str = "
+let p = pipeline(\"Pulling\");
+p.target(\"depth\", \"depth32float\");
+p.target(\"pulled\", \"r32float\");
+p.target(\"output\", \"rgba8unorm\");
+p.geometry(\"prepass\").depth(\"depth\").clear(0.0);
+p.geometry(\"pull\").shader(\"shaders/pulled.wgsl\").pull_vertices(true)
+    .writes(\"pulled\").clear(0, 0, 0, 0)
+    .depth(\"depth\").test(\"equal\").read_only();
+p.fullscreen(\"show\").shader(\"shaders/show.wgsl\").reads(\"pulled\").writes(\"output\");
+p.show(\"output\");
+p";
+const PULLED: &str = "#import lightbench::scene
+#import lightbench::mesh
+@vertex fn vertex_main(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) drawn: u32,
+) -> @builtin(position) @invariant vec4f {
+    let instance = scene::instances[scene::drawn_objects[drawn].instance];
+    let position = mesh::position_of(mesh::vertex_at(instance, corner));
+    return scene::clip_position(scene::world_position(instance, position));
+}
+@fragment fn fragment_main() -> @location(0) f32 { return 1.0; }";
+const SHOW: &str = "@group(1) @binding(0) var pulled: texture_2d<f32>;
+@fragment fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    return textureLoad(pulled, vec2u(pixel.xy), 0);
+}";
+
+#[test]
+fn pulled_vertices_land_where_indexed_ones_do() {
+    let mut studio = Studio::new("many_lights", &Settings::new());
+    let (_folder, files) = project(&[
+        ("scripts/pipelines/pulling.rhai", PULLING),
+        ("shaders/pulled.wgsl", PULLED),
+        ("shaders/show.wgsl", SHOW),
+    ]);
+    studio.files = files;
+    let (pipeline, _) = studio.draw_whole("pulling", &Settings::new(), SIZE);
+    let read = |name| studio.renderer.read_target(&pipeline, name).unwrap().texels;
+    let (pulled, depth) = (read("pulled"), read("depth"));
+    assert!(depth.iter().any(|texel| texel[0] > 0.0));
+    for (index, (pulled, depth)) in pulled.iter().zip(&depth).enumerate() {
+        assert_eq!(pulled[0] == 1.0, depth[0] > 0.0, "pixel {index}");
+    }
+}
+
+#[test]
+fn a_pass_that_pulls_vertices_needs_a_vertex_stage_that_fetches_them() {
+    let fragment_only = "@fragment fn fragment_main() -> @location(0) f32 { return 1.0; }";
+    let (_folder, files) = project(&[
+        ("scripts/pipelines/pulling.rhai", PULLING),
+        ("shaders/pulled.wgsl", fragment_only),
+        ("shaders/show.wgsl", SHOW),
+    ]);
+    let studio = Studio::new("hard_cases", &settings(&["case=no_objects"]));
+    let desc = load_pipeline(&files, "pulling", &Settings::new()).unwrap();
+    let problems = studio
+        .renderer
+        .compiler()
+        .compile(&files, &desc)
+        .unwrap_err();
+    assert_eq!(
+        problems.0[0].message,
+        "`pull` pulls its vertices, but `shaders/pulled.wgsl` has no vertex stage that fetches them"
+    );
 }
 
 #[test]
@@ -80,40 +138,9 @@ fn position(to_world: &DMat4, index: usize, depth: f64) -> DVec3 {
     world.truncate() / world.w
 }
 
-/// Shapes whose points are hard to find: mirrored, scaled unevenly, seen from behind, full of holes,
-/// cut by the near plane, normal-mapped, with large and small triangles.
-const SHAPES: &str = "
-let cloth = material(\"cloth\").surface(weave_texture()).specular(0.1).power(60).two_sided();
-let stone = material(\"stone\").surface(tiles_texture().pieces(3)).specular(0.2).power(90);
-let leaf = material(\"leaf\").texture(picture(\"leaf.tga\")).cutoff(0.5).two_sided().specular(0.1);
-spawn(\"floor\").mesh(plane(200, 200)).material(stone).at(0, -1, 0);
-spawn(\"near\").mesh(plane(3, 3)).material(stone).at(0, -0.2, 4.9);
-spawn(\"mirrored\").mesh(torus(0.6, 0.25)).material(stone).at(-2.2, 0.2, 0).scale(-1, 1.4, 0.7);
-spawn(\"cloth\").mesh(plane(2, 2)).material(cloth).at(0, 0.4, -1).turn(-70, 20, 0);
-spawn(\"behind\").mesh(plane(2, 2)).material(cloth).at(2.2, 0.4, -1).turn(80, 190, 10);
-spawn(\"leaf\").mesh(plane(1.5, 1.5)).material(leaf).at(1.2, 0.3, 1.5).turn(75, 0, 0);
-spawn(\"ball\").mesh(sphere(0.5).segments(96, 48)).material(stone).at(-0.9, -0.2, 1.6);
-point_light(\"lamp\").at(1, 2, 3).range(12).intensity(9);
-point_light(\"other\").at(-3, 1, 1).range(9).intensity(6).color(0.4, 0.6, 1);
-ambient_light(\"sky\").color(0.6, 0.7, 1).intensity(0.1);
-camera(\"eye\").at(0, 0.8, 5).look_at(0, 0, 0).fov(55).near(0.1).far(90);
-";
-
-/// A green picture full of round holes, as a TGA file of 32 bits a pixel.
-fn leaf() -> Vec<u8> {
-    let mut bytes = vec![0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64, 0, 64, 0, 32, 0x28];
-    for pixel in 0..64 * 64_i32 {
-        let (x, y) = (pixel % 64 % 16 - 8, pixel / 64 % 16 - 8);
-        let alpha = if x * x + y * y < 30 { 0 } else { 255 };
-        bytes.extend([40, 160, 60, alpha]);
-    }
-    bytes
-}
-
 #[test]
 fn hard_shapes_look_as_in_forward_shading() {
-    let (folder, files) = project(&[("scripts/scenes/shapes.rhai", SHAPES)]);
-    std::fs::write(folder.path().join("leaf.tga"), leaf()).unwrap();
+    let (_folder, files) = hard_shapes();
     for portable in [false, true] {
         let mut studio = Studio::on(gpu(portable), "hard_cases", &settings(&["case=no_objects"]));
         studio.show(files.clone(), "shapes");

@@ -100,8 +100,20 @@ pub enum PassPipelines {
 pub struct LightsPipelines {
     /// For each array of lights; one where there are no arrays.
     pub arrays: Vec<LightPipelines>,
-    /// With a stencil technique: what marks the pixels of a volume, and what wipes all marks.
-    pub stencil: Option<(DrawPipeline, DrawPipeline)>,
+    /// With a stencil technique: what writes marks.
+    pub stencil: Option<StencilPipelines>,
+}
+
+/// What writes the marks of light volumes into stencil.
+#[derive(Debug)]
+pub struct StencilPipelines {
+    /// Marks the pixels of a sphere or cone.
+    pub mark: DrawPipeline,
+    /// Counts the faces of a closed mesh behind the scene: more back faces than front ones mean that
+    /// the scene lies inside.
+    pub count: DrawPipeline,
+    /// Sets all marks to the reference.
+    pub wipe: DrawPipeline,
 }
 
 /// The ways in which a light's volume is drawn.
@@ -115,6 +127,8 @@ pub struct LightPipelines {
     pub screen: DrawPipeline,
     /// Pixels that are marked in stencil, or with the inverse scheme those that are not.
     pub marked: Option<DrawPipeline>,
+    /// Pixels that are counted to lie inside a closed mesh; each is shaded once and loses its count.
+    pub counted: Option<DrawPipeline>,
 }
 
 impl LightPipelines {

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::binding::{EngineBuffer, Source};
-use crate::compiled_pass::{CompiledPass, EngineBuffers};
+use crate::compiled_pass::CompiledPass;
 use crate::description::{Amount, Dispatch, Lights, PassKind, PipelineDesc};
+use crate::engine_buffers::EngineBuffers;
 use crate::frame::{ListKey, ShadowKey};
 use crate::gpu::Gpu;
 use crate::life::Lives;

@@ -215,6 +215,7 @@ impl Renderer {
         self.statistics.gpu_ms = None;
         self.statistics.objects = self.frame.visible_objects;
         self.statistics.lights = self.frame.visible_lights;
+        self.statistics.unconfined_lights = self.frame.unconfined_lights(world);
         self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
         self.serial = self.serial.wrapping_add(1);
         self.index = self.index.wrapping_add(1);
@@ -306,6 +307,7 @@ impl Renderer {
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
             shadow_lists: &pipeline.shadow_lists,
+            clamps_depth: self.gpu.clamps_depth(),
         };
         let (extraction, ()) = SystemTime::of("extraction", || {
             let (instances, lights) = (self.scene.instances(), self.scene.lights());

@@ -41,8 +41,20 @@ pub struct VolumeDraw {
     pub volumes: std::ops::Range<u32>,
     /// Which array of lights it belongs to; 0 without arrays.
     pub array: u32,
-    /// Whether pixels inside are marked in stencil before; then it is one volume.
-    pub stencil: bool,
+    /// How pixels inside are found; where it is not by depth, it is one volume.
+    pub marking: Marking,
+}
+
+/// How the pixels inside a volume are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Marking {
+    /// By one depth test.
+    Depth,
+    /// By counting faces behind the scene in stencil: for closed meshes of any shape (Heidmann 1991,
+    /// "Real Shadows, Real Time", counted from behind as Carmack and Bilodeau do).
+    Count,
+    /// By the pass's stencil scheme.
+    Scheme,
 }
 
 /// The volume of one light.

@@ -7,7 +7,8 @@ use glam::Vec3;
 use lightbench_assets::procedural;
 use lightbench_render::binding::EngineBuffer;
 use lightbench_render::description::{DrawOrder, PassKind};
-use lightbench_render::pipeline::EngineBuffers;
+use lightbench_render::engine_buffers::EngineBuffers;
+use lightbench_render::scene::MeshBuffers;
 use lightbench_render::{TargetImage, View};
 use lightbench_world::{Light, LightKind, Transform};
 use support::{Bench, deferred, forward, gpu};
@@ -335,10 +336,14 @@ fn meshes_that_no_shader_can_bind_at_once_are_refused_in_words() {
     };
     let (small, large) = (buffer(4), buffer(3 << 20));
     let engine = EngineBuffers {
-        mesh_positions: &small,
-        mesh_attributes: &large,
-        mesh_groups: &small,
-        mesh_indices: &small,
+        meshes: MeshBuffers {
+            positions: &small,
+            attributes: &large,
+            groups: &small,
+            indices: &small,
+        },
+        shadow_views: &small,
+        light_shadows: &small,
         revision: 1,
     };
     use EngineBuffer::{MeshAttributes, MeshIndices, MeshPositions};
@@ -348,9 +353,8 @@ fn meshes_that_no_shader_can_bind_at_once_are_refused_in_words() {
     assert_eq!(refused(&[], 0), None);
     let message = refused(&[MeshPositions, MeshAttributes], 2 << 20).unwrap();
     assert!(
-        message.starts_with(
-            "the scene's meshes have 3 MiB of normals, texture coordinates and tangents"
-        ) && message.contains("binds 2 MiB"),
+        message.starts_with("the scene has 3 MiB of normals, texture coordinates and tangents")
+            && message.contains("binds 2 MiB"),
         "{message}"
     );
 }

@@ -135,30 +135,31 @@ fn editors_that_save_through_a_temporary_file() {
 }
 
 #[test]
-fn hundreds_of_saves_in_a_second_end_with_the_last() {
+fn a_hundred_saves_in_a_second_end_with_the_last() {
     let project = Project::new();
     let path = project.path("shaders/a.wgsl");
-    let began = Instant::now();
     let writer = std::thread::spawn(move || {
-        for round in 0..400 {
+        for round in 0..100 {
             fs::write(&path, format!("save {round}")).unwrap();
-            std::thread::sleep(Duration::from_micros(2500));
+            std::thread::sleep(Duration::from_millis(10));
         }
     });
     let files = Files::with_project(project.folder.path()).unwrap();
-    let (mut reports, mut last) = (0, began);
+    let began = Instant::now();
+    let mut reports = 0;
     let mut read = String::new();
     // Until nothing more comes for a while.
     while project.watcher.wait(Duration::from_millis(500)).is_some() {
-        (reports, last) = (reports + 1, Instant::now());
+        reports += 1;
         read = files.read_text("shaders/a.wgsl").unwrap();
     }
     writer.join().unwrap();
-    assert_eq!(read, "save 399");
-    // On a busy machine the saves take longer, and there are more reports.
-    let most = (last - began).as_millis() / SETTLE.as_millis() + 2;
-    assert!(reports <= most, "{reports} reports, at most {most} wanted");
-    assert!(reports < 400, "{reports} reports of 400 saves");
+    assert_eq!(read, "save 99");
+    let most = began.elapsed().as_millis() / SETTLE.as_millis() + 1;
+    assert!(
+        reports <= most,
+        "{reports} reports, at most {most} expected"
+    );
 }
 
 #[test]

@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn memory_that_is_taken_is_seen() {
         let before = resident_bytes().unwrap_or(0);
-        let taken = vec![1_u8; 64 << 20];
+        let taken = std::hint::black_box(vec![1_u8; 64 << 20]);
         let after = resident_bytes().unwrap_or(0);
         assert!(after > before + (48 << 20), "{before} {after}");
         assert_eq!(taken[taken.len() / 2], 1);

@@ -94,6 +94,17 @@ impl Series {
         }
     }
 
+    /// Says once that lights shine beyond their clip volumes.
+    fn note_unconfined(&mut self, lights: u32) {
+        let notes = &mut self.result.notes;
+        let about = "shine beyond their clip volumes";
+        if lights > 0 && !notes.iter().any(|note| note.contains(about)) {
+            notes.push(format!(
+                "{lights} lights {about}: this pipeline can't confine them"
+            ));
+        }
+    }
+
     /// Adds a frame. `stepped` is what the systems took to reach its moment, and `measured` what
     /// its queries brought.
     pub(super) fn add(
@@ -105,6 +116,7 @@ impl Series {
         for time in stepped.iter().chain(&statistics.systems) {
             self.add_system(time);
         }
+        self.note_unconfined(statistics.unconfined_lights);
         let cpu = statistics.extract_ms + statistics.record_ms;
         self.result.frame_cpu_ms.push(cpu);
         let total = measured.and_then(|measured| measured.total_ms);
@@ -130,8 +142,13 @@ impl Series {
             pass.dropped = cost.dropped;
             pass.bytes_read = cost.traffic.read;
             pass.bytes_written = cost.traffic.written;
+            pass.bytes_stencil = cost.traffic.stencil;
+            pass.bytes_loaded = cost.traffic.loaded;
+            pass.bytes_stored = cost.traffic.stored;
             if let Some(measured) = measured {
                 pass.fragments = measured.fragments.get(index).copied();
+                let fragments = pass.fragments.filter(|_| cost.traffic.pixels > 0);
+                pass.bytes_overdraw = fragments.map(|count| cost.traffic.overdraw(count));
                 pass.vertices = measured.vertices.get(index).copied();
             }
         }

@@ -1,4 +1,5 @@
-//! The twin of `shaders/lib/index_packing.wgsl`: numbers of lights that are blended over one another.
+//! The twin of `shaders/lib/index_packing.wgsl`: numbers of lights that are blended over one
+//! another.
 
 /// How many numbers of 8 bits a pixel has room for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -76,12 +76,7 @@ impl Compiler {
             primitive: wgpu::PrimitiveState {
                 front_face: state.front,
                 cull_mode: state.cull,
-                unclipped_depth: state.unclipped_depth
-                    && self
-                        .gpu
-                        .device
-                        .features()
-                        .contains(wgpu::Features::DEPTH_CLIP_CONTROL),
+                unclipped_depth: state.unclipped_depth && self.gpu.clamps_depth(),
                 ..Default::default()
             },
             depth_stencil,

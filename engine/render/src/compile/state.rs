@@ -82,6 +82,16 @@ pub(super) fn stencil_test(compare: wgpu::CompareFunction) -> wgpu::StencilState
     both(face)
 }
 
+/// Passes where something was counted, and sets the count to zero.
+pub(super) fn take_counted() -> wgpu::StencilState {
+    both(wgpu::StencilFaceState {
+        compare: wgpu::CompareFunction::NotEqual,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: wgpu::StencilOperation::Keep,
+        pass_op: wgpu::StencilOperation::Zero,
+    })
+}
+
 /// Tests nothing, and changes the value where the depth test fails or passes.
 pub(super) fn stencil_mark(
     depth_fail: wgpu::StencilOperation,

@@ -2,10 +2,13 @@
 
 use glam::Vec3;
 
+use super::clip_volumes::clip_volume;
+use super::objects::Objects;
 use super::{Frame, ViewVolume};
 use crate::description::{LightStencil, Lights};
-use crate::gpu_data::LightData;
-use crate::volumes::{self, Case, VolumeDraw};
+use crate::gpu_data::{LightData, LightVolumeData, matrix_rows};
+use crate::scene::Shape;
+use crate::volumes::{self, Case, Marking, VolumeDraw, VolumeKind};
 
 impl Frame {
     /// Chooses how each light is drawn, and groups equal choices into instanced draws.
@@ -13,15 +16,16 @@ impl Frame {
         &mut self,
         index: usize,
         key: &Lights,
-        lights: &[LightData],
-        view: &ViewVolume,
+        objects: &Objects<'_>,
+        clamps_depth: bool,
     ) {
+        let (lights, view) = (objects.lights, objects.view);
         self.kinds.clear();
         for array in &mut self.arrays {
             array.clear();
         }
         let list = &mut self.light_lists[index];
-        (list.coverage, list.unplaced) = (0.0, 0);
+        (list.coverage, list.unplaced, list.unconfined) = (0.0, 0, 0);
         list.draws.clear();
         for (index, light) in lights.iter().enumerate() {
             let unbounded = !volumes::is_bounded(light);
@@ -47,18 +51,40 @@ impl Frame {
             } else {
                 1.0
             };
+            if let Some(clip) = clip_volume(objects, index) {
+                let can = key.stencil != LightStencil::Off && key.volumes && !key.any_depth;
+                if can && (clamps_depth || !clip.crosses_far) {
+                    self.kinds.push(super::Chosen {
+                        array,
+                        marking: Marking::Count,
+                        kind: VolumeKind {
+                            case: Case::Back,
+                            shape: Shape::Mesh(clip.mesh),
+                        },
+                        data: LightVolumeData {
+                            rows: matrix_rows(&clip.transform),
+                            ..volume.data
+                        },
+                    });
+                    continue;
+                }
+                list.unconfined += 1;
+            }
             // A scheme whose faces a plane of the view may cut does without stencil.
             let uncut = match key.stencil {
                 LightStencil::Off => false,
                 LightStencil::TwoPass => !volume.crosses_near && !volume.crosses_far,
                 LightStencil::Inverse => !volume.crosses_far,
             };
-            let stencil = uncut
-                && volume.kind.case != Case::Screen
-                && volumes::angular_diameter(light, view) >= key.threshold * view.fov_y();
+            let large = volumes::angular_diameter(light, view) >= key.threshold * view.fov_y();
+            let marking = if uncut && large && volume.kind.case != Case::Screen {
+                Marking::Scheme
+            } else {
+                Marking::Depth
+            };
             self.kinds.push(super::Chosen {
                 array,
-                stencil,
+                marking,
                 kind: volume.kind,
                 data: volume.data,
             });
@@ -66,15 +92,15 @@ impl Frame {
         self.visible_lights = self.kinds.len() as u32 + list.unplaced;
         // Equal kinds stay in the order of light indices, so that sums do too.
         self.kinds
-            .sort_unstable_by_key(|c| (c.array, c.stencil, c.kind, c.data.light));
+            .sort_unstable_by_key(|c| (c.array, c.marking, c.kind, c.data.light));
         for chosen in &self.kinds {
             let at = self.volumes.len() as u32;
             self.volumes.push(chosen.data);
             match list.draws.last_mut() {
                 Some(draw)
-                    if !chosen.stencil
-                        && (draw.array, draw.stencil, draw.kind)
-                            == (chosen.array, false, chosen.kind) =>
+                    if chosen.marking == Marking::Depth
+                        && (draw.array, draw.marking, draw.kind)
+                            == (chosen.array, chosen.marking, chosen.kind) =>
                 {
                     draw.volumes.end = at + 1;
                 }
@@ -82,7 +108,7 @@ impl Frame {
                     kind: chosen.kind,
                     volumes: at..at + 1,
                     array: chosen.array,
-                    stencil: chosen.stencil,
+                    marking: chosen.marking,
                 }),
             }
         }

@@ -3,6 +3,7 @@
 //! Flat arrays in the layout that the GPU reads, filled again each frame without allocation once
 //! they have their size. Passes see the frame and never the world.
 
+mod clip_volumes;
 mod layers;
 mod lights;
 mod object_lights;
@@ -12,7 +13,7 @@ mod shadows;
 use glam::{Mat4, Vec3};
 use lightbench_assets::Assets;
 use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
-use lightbench_world::{MeshId, World, WorldBounds};
+use lightbench_world::{ClipVolume, Light, MeshId, World, WorldBounds};
 
 use crate::description::{DrawList, DrawOrder, Lights, ObjectLights, PassDesc, PassKind, Repeat};
 use crate::gpu_data::{
@@ -20,7 +21,7 @@ use crate::gpu_data::{
 };
 use crate::variant::{Variant, Variants};
 use crate::view::View;
-use crate::volumes::{self, VolumeDraw, VolumeKind};
+use crate::volumes::{self, Marking, VolumeDraw, VolumeKind};
 use objects::Objects;
 
 pub use shadows::{NO_VIEW, ShadowKey, ShadowList, ViewDraws};
@@ -130,6 +131,15 @@ pub struct Step {
     pub mark: Option<VolumeDraw>,
 }
 
+impl Step {
+    /// The share of the picture that it may draw to.
+    pub fn coverage(&self) -> f64 {
+        self.scissor.map_or(1.0, |[left, top, right, bottom]| {
+            f64::from((right - left).max(0.0)) * f64::from((bottom - top).max(0.0))
+        })
+    }
+}
+
 /// What a `lights` pass draws.
 #[derive(Clone, Debug, Default)]
 pub struct LightList {
@@ -139,13 +149,15 @@ pub struct LightList {
     pub coverage: f64,
     /// Lights for which no array had room.
     pub unplaced: u32,
+    /// Lights with a clip volume that shine beyond it here.
+    pub unconfined: u32,
 }
 
 /// A light and how it is drawn.
 #[derive(Clone, Copy, Debug)]
 struct Chosen {
     array: u32,
-    stencil: bool,
+    marking: Marking,
     kind: VolumeKind,
     data: LightVolumeData,
 }
@@ -206,6 +218,8 @@ pub struct FrameRequest<'a> {
     pub light_lists: &'a [Lights],
     /// The views that `shadow` passes draw.
     pub shadow_lists: &'a [ShadowKey],
+    /// Whether the device can clamp depth instead of cutting faces off.
+    pub clamps_depth: bool,
 }
 
 impl Frame {
@@ -242,7 +256,7 @@ impl Frame {
         self.light_lists
             .resize_with(request.light_lists.len(), Default::default);
         for (index, key) in request.light_lists.iter().enumerate() {
-            self.light_volumes(index, key, lights, &volume);
+            self.light_volumes(index, key, &objects, request.clamps_depth);
         }
         self.views.clear();
         self.shadow_views.clear();
@@ -299,6 +313,21 @@ impl Frame {
             focal_x,
             focal_y,
         }
+    }
+
+    /// Lights with a clip volume that shine beyond it: those that a `lights` pass could not confine,
+    /// or all where no pass draws lights as volumes.
+    pub fn unconfined_lights(&self, world: &World) -> u32 {
+        let lists = self.light_lists.iter();
+        let most = lists.map(|list| list.unconfined).max();
+        most.unwrap_or_else(|| {
+            let volumes = world.columns::<ClipVolume>();
+            let lights = world.columns::<Light>();
+            let entities = volumes.entities().iter();
+            entities
+                .filter(|entity| lights.row_of(**entity).is_some())
+                .count() as u32
+        })
     }
 
     /// Finds the objects that the camera sees.

@@ -3,7 +3,7 @@
 use super::raster::Work;
 use crate::gpu_pipelines::{DrawPipeline, LightsPipelines};
 use crate::statistics::PassStatistics;
-use crate::volumes::{Case, VolumeDraw};
+use crate::volumes::{Case, Marking, VolumeDraw};
 
 /// Marks that the eight bits of stencil tell apart; 0 is "not marked".
 pub(super) const MARKS: u32 = 255;
@@ -25,20 +25,30 @@ impl Work<'_> {
             let Some(array) = pipelines.arrays.get(run.array as usize) else {
                 continue;
             };
-            if let (true, Some(shade), Some((mark, wipe))) =
-                (run.stencil, &array.marked, &pipelines.stencil)
-            {
-                // Each light has a mark of its own; when all are used up, they are wiped away.
-                if marked > 0 && marked % MARKS == 0 {
-                    self.screen(wipe, 0, render_pass, cost);
+            let stencil = pipelines.stencil.as_ref();
+            match (run.marking, stencil, &array.marked, &array.counted) {
+                (Marking::Scheme, Some(stencil), Some(shade), _) => {
+                    // Each light has a mark of its own; when all are used up, they are wiped away.
+                    if marked > 0 && marked % MARKS == 0 {
+                        self.screen(&stencil.wipe, 0, render_pass, cost);
+                    }
+                    render_pass.set_stencil_reference(1 + marked % MARKS);
+                    marked += 1;
+                    self.volume(&stencil.mark, run, render_pass, cost);
+                    self.volume(shade, run, render_pass, cost);
                 }
-                render_pass.set_stencil_reference(1 + marked % MARKS);
-                marked += 1;
-                self.volume(mark, run, render_pass, cost);
-                self.volume(shade, run, render_pass, cost);
-                continue;
+                (Marking::Count, Some(stencil), _, Some(shade)) => {
+                    // Counts begin at zero, and shading leaves them so.
+                    if marked > 0 {
+                        self.screen(&stencil.wipe, 0, render_pass, cost);
+                        marked = 0;
+                    }
+                    render_pass.set_stencil_reference(0);
+                    self.volume(&stencil.count, run, render_pass, cost);
+                    self.volume(shade, run, render_pass, cost);
+                }
+                _ => self.volume(array.of(run.kind.case), run, render_pass, cost),
             }
-            self.volume(array.of(run.kind.case), run, render_pass, cost);
         }
     }
 
@@ -57,7 +67,9 @@ impl Work<'_> {
             return;
         }
         let meshes = self.recording.meshes;
-        let shape = meshes.shape(run.kind.shape);
+        let Some(shape) = meshes.shape(run.kind.shape) else {
+            return;
+        };
         meshes.bind(render_pass, pipeline.attributes);
         render_pass.draw_indexed(
             shape.indices.clone(),

@@ -11,14 +11,15 @@ mod warm;
 use std::time::Instant;
 
 use crate::compiled_pass::CompiledPass;
-use crate::description::{PassDesc, PassKind};
-use crate::frame::Frame;
+use crate::description::{Geometry, PassDesc, PassKind};
+use crate::frame::{Frame, Step};
 use crate::gpu_pipelines::PassPipelines;
 use crate::inspect::Inspector;
 use crate::pipeline::Pipeline;
 use crate::queries::{Measure, Queries};
 use crate::scene::MeshPool;
-use crate::statistics::{PassStatistics, traffic};
+use crate::statistics::PassStatistics;
+use crate::traffic::traffic;
 
 pub use warm::{is_cold, warm};
 
@@ -136,13 +137,20 @@ pub fn record(
 }
 
 /// How often a pass covers what it draws to: for a `lights` pass the sum over its lights of the share
-/// of the picture that each covers, for a `shadow` pass the number of its views, else 1.
+/// of the picture that each covers, for a `geometry` pass that is repeated the sum over its groups of
+/// lights, for a `shadow` pass the number of its views, else 1.
 fn coverage(desc: &PassDesc, pass: &CompiledPass, frame: &Frame) -> f64 {
     match desc.kind {
         PassKind::Lights(_) => pass
             .list
             .and_then(|list| frame.light_lists.get(list))
             .map_or(0.0, |list| list.coverage),
+        PassKind::Geometry(Geometry {
+            repeat: Some(_), ..
+        }) => pass
+            .list
+            .and_then(|list| frame.lists.get(list))
+            .map_or(0.0, |list| list.steps.iter().map(Step::coverage).sum()),
         PassKind::Shadow(_) => views(pass, frame) as f64,
         _ => 1.0,
     }

@@ -14,7 +14,7 @@ use crate::gpu_pipelines::{
 use crate::pipeline::Pipeline;
 use crate::queries::Queries;
 use crate::scene::MeshPool;
-use crate::volumes::{Case, VolumeDraw};
+use crate::volumes::{Case, Marking, VolumeDraw};
 
 /// A GPU pipeline that the frame needs and that nobody has drawn with, and the least to do with it.
 enum Cold<'a> {
@@ -169,12 +169,15 @@ fn lights<'a>(
     let list = frame.light_lists.get(pass.list?)?;
     list.draws.iter().find_map(|run| {
         let array = pipelines.arrays.get(run.array as usize)?;
-        match (run.stencil, &array.marked, &pipelines.stencil) {
-            (true, Some(shade), Some((mark, wipe))) => volume(mark, run, meshes)
-                .or_else(|| volume(shade, run, meshes))
-                .or_else(|| draw(wipe, Triangle::Screen { instance: 0 })),
-            _ => volume(array.of(run.kind.case), run, meshes),
-        }
+        let (mark, shade) = match (run.marking, &pipelines.stencil) {
+            (Marking::Scheme, Some(stencil)) => (&stencil.mark, array.marked.as_ref()),
+            (Marking::Count, Some(stencil)) => (&stencil.count, array.counted.as_ref()),
+            _ => return volume(array.of(run.kind.case), run, meshes),
+        };
+        let wipe = pipelines.stencil.as_ref().map(|stencil| &stencil.wipe);
+        volume(mark, run, meshes)
+            .or_else(|| volume(shade?, run, meshes))
+            .or_else(|| draw(wipe?, Triangle::Screen { instance: 0 }))
     })
 }
 
@@ -184,7 +187,7 @@ fn volume<'a>(pipeline: &'a DrawPipeline, run: &VolumeDraw, meshes: &MeshPool) -
     if run.kind.case == Case::Screen {
         return draw(pipeline, Triangle::Screen { instance });
     }
-    let shape = meshes.shape(run.kind.shape);
+    let shape = meshes.shape(run.kind.shape)?;
     let triangle = Triangle::Indexed {
         first_index: shape.indices.start,
         base_vertex: shape.base_vertex,

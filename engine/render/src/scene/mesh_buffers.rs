@@ -79,22 +79,41 @@ impl Span {
     }
 }
 
-/// The buffers.
-#[derive(Debug)]
-pub struct MeshBuffers {
+/// The buffers of all meshes, for passes that bind them.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshBuffers<'a> {
     /// Vertex positions.
-    pub positions: wgpu::Buffer,
+    pub positions: &'a wgpu::Buffer,
     /// The rest of the vertices.
-    pub attributes: wgpu::Buffer,
+    pub attributes: &'a wgpu::Buffer,
     /// The smooth group of each vertex.
-    pub groups: wgpu::Buffer,
+    pub groups: &'a wgpu::Buffer,
     /// Indices.
-    pub indices: wgpu::Buffer,
+    pub indices: &'a wgpu::Buffer,
+}
+
+/// The buffers with all that is done to them.
+#[derive(Debug)]
+pub struct MeshStorage {
+    positions: wgpu::Buffer,
+    attributes: wgpu::Buffer,
+    groups: wgpu::Buffer,
+    indices: wgpu::Buffer,
     /// What they have room for.
     pub capacity: Extent,
 }
 
-impl MeshBuffers {
+impl MeshStorage {
+    /// The buffers.
+    pub fn buffers(&self) -> MeshBuffers<'_> {
+        MeshBuffers {
+            positions: &self.positions,
+            attributes: &self.attributes,
+            groups: &self.groups,
+            indices: &self.indices,
+        }
+    }
+
     /// Buffers with room for so much.
     pub fn new(gpu: &Gpu, capacity: Extent) -> Self {
         let buffer = |label, count: u32, size: usize, usage| {

@@ -10,7 +10,7 @@ use lightbench_assets::Assets;
 use lightbench_world::MeshId;
 
 use super::Uploads;
-use super::mesh_buffers::{Extent, MeshBuffers, PackedMeshes, Span};
+use super::mesh_buffers::{Extent, MeshBuffers, MeshStorage, PackedMeshes, Span};
 use crate::gpu::Gpu;
 use crate::volumes;
 
@@ -33,19 +33,21 @@ impl From<Span> for MeshRange {
     }
 }
 
-/// The unit shapes of light volumes.
+/// The shapes of light volumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
     /// A sphere that encloses the unit sphere.
     Sphere,
     /// A cone with its apex at the origin, along −z, of length 1 and base radius 1.
     Cone,
+    /// A mesh of the scene.
+    Mesh(MeshId),
 }
 
 /// Meshes and shapes on the device.
 pub struct MeshPool {
     gpu: Gpu,
-    buffers: MeshBuffers,
+    storage: MeshStorage,
     /// Where the unused rest of the buffers begins.
     used: Extent,
     /// What lies in the buffers, by the revision of the mesh, with what nobody wants any more.
@@ -67,11 +69,11 @@ impl MeshPool {
             packed.shape(&volumes::unit_sphere()),
             packed.shape(&volumes::unit_cone()),
         ];
-        let buffers = MeshBuffers::new(gpu, packed.length());
-        buffers.write(gpu, Extent::default(), &packed);
+        let storage = MeshStorage::new(gpu, packed.length());
+        storage.write(gpu, Extent::default(), &packed);
         Self {
             gpu: gpu.clone(),
-            buffers,
+            storage,
             used: packed.length(),
             spans: HashMap::new(),
             shapes,
@@ -112,14 +114,12 @@ impl MeshPool {
             .chain(old.iter().map(|old| &self.spans[old]));
         let stays = stays.fold(Extent::default(), |sum, span| sum.and(span.length));
         let wanted = stays.and(packed.length());
-        let capacity = self.buffers.capacity;
-        let fits = capacity.holds(self.used.and(packed.length()));
-        let mostly_unused = wanted.largest_bytes() < capacity.largest_bytes() / 2;
-        if !fits || mostly_unused {
+        let fits = self.storage.capacity.holds(self.used.and(packed.length()));
+        if !fits || self.is_too_large_for(wanted) {
             self.move_to(self.capacity_for(wanted)?, &old);
         }
         uploads.meshes += new.len() as u64;
-        uploads.bytes += self.buffers.write(&self.gpu, self.used, &packed);
+        uploads.bytes += self.storage.write(&self.gpu, self.used, &packed);
         for (revision, span) in new {
             self.spans.insert(revision, span.behind(self.used));
         }
@@ -155,18 +155,34 @@ impl MeshPool {
             ));
         }
         let spare = wanted.with_spare();
-        Ok(
-            if self.spans.is_empty() || spare.largest_bytes() > largest {
-                wanted
-            } else {
-                spare
-            },
-        )
+        let first = self.spans.is_empty();
+        Ok(match first || spare.largest_bytes() > self.bindable() {
+            true => wanted,
+            false => spare,
+        })
+    }
+
+    /// Whether so much should have smaller buffers: most of these is unused, or no shader could bind
+    /// them although it could bind the others.
+    fn is_too_large_for(&self, wanted: Extent) -> bool {
+        let (bytes, now) = (
+            wanted.largest_bytes(),
+            self.storage.capacity.largest_bytes(),
+        );
+        bytes < now / 2 || bytes <= self.bindable() && self.bindable() < now
+    }
+
+    /// The bytes of one buffer that shaders which fetch vertices themselves can bind.
+    fn bindable(&self) -> u64 {
+        let limits = self.gpu.device.limits();
+        limits
+            .max_buffer_size
+            .min(limits.max_storage_buffer_binding_size)
     }
 
     /// Goes on with new buffers, to which the shapes and the meshes of these revisions are copied.
     fn move_to(&mut self, capacity: Extent, revisions: &[u64]) {
-        let buffers = MeshBuffers::new(&self.gpu, capacity);
+        let storage = MeshStorage::new(&self.gpu, capacity);
         let mut encoder = self
             .gpu
             .device
@@ -177,7 +193,7 @@ impl MeshPool {
                 start: used,
                 length: from.length,
             };
-            buffers.copy(&mut encoder, to, &self.buffers, from);
+            storage.copy(&mut encoder, to, &self.storage, from);
             used = used.and(from.length);
             to
         };
@@ -185,14 +201,14 @@ impl MeshPool {
         let spans = revisions.iter().map(|old| (*old, copy(self.spans[old])));
         self.spans = spans.collect();
         self.gpu.queue.submit([encoder.finish()]);
-        self.buffers = buffers;
+        self.storage = storage;
         self.used = used;
         self.shape_ranges = self.shapes.map(MeshRange::from);
     }
 
     /// The buffers, for shaders that fetch vertices themselves.
-    pub fn buffers(&self) -> &MeshBuffers {
-        &self.buffers
+    pub fn buffers(&self) -> MeshBuffers<'_> {
+        self.storage.buffers()
     }
 
     /// A number that differs where the buffers, or the places of meshes in them, are others than
@@ -206,22 +222,27 @@ impl MeshPool {
         self.ranges.get(mesh.0 as usize)
     }
 
-    /// Where a shape lies.
-    pub fn shape(&self, shape: Shape) -> &MeshRange {
-        &self.shape_ranges[shape as usize]
+    /// Where a shape lies; none for a mesh that is not there.
+    pub fn shape(&self, shape: Shape) -> Option<&MeshRange> {
+        match shape {
+            Shape::Sphere => Some(&self.shape_ranges[0]),
+            Shape::Cone => Some(&self.shape_ranges[1]),
+            Shape::Mesh(mesh) => self.range(mesh),
+        }
     }
 
     /// Binds the vertex streams and the indices.
     pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, attributes: bool) {
-        pass.set_vertex_buffer(0, self.buffers.positions.slice(..));
+        let buffers = self.buffers();
+        pass.set_vertex_buffer(0, buffers.positions.slice(..));
         if attributes {
-            pass.set_vertex_buffer(1, self.buffers.attributes.slice(..));
+            pass.set_vertex_buffer(1, buffers.attributes.slice(..));
         }
-        pass.set_index_buffer(self.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.buffers.bytes()
+        self.storage.bytes()
     }
 }

@@ -16,7 +16,7 @@ pub use mesh_buffers::MeshBuffers;
 pub use meshes::{MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
-use crate::compiled_pass::EngineBuffers;
+use crate::engine_buffers::EngineBuffers;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::gpu_data::{
