@@ -11,7 +11,7 @@ use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_withi
 
 use super::Wake;
 
-/// Paths that a load has read.
+/// Paths that a load has read or looked for.
 type Reads = Arc<Mutex<BTreeSet<String>>>;
 
 struct Loading {
@@ -243,7 +243,7 @@ impl Scenes {
         let settings = self.settings.get(&name).cloned().unwrap_or_default();
         let reads = Reads::default();
         let told = Arc::clone(&reads);
-        let files = self.files.observed(move |path, _| {
+        let files = self.files.observed_with_missing(move |path, _| {
             let mut reads = told.lock().unwrap_or_else(PoisonError::into_inner);
             reads.insert(path.to_owned());
         });

@@ -29,6 +29,7 @@ use std::path::{Path, PathBuf};
 pub use atomic::write_atomic;
 pub use error::FileError;
 pub use list::Listed;
+pub use observer::Access;
 use observer::Observers;
 pub use path::{check, join};
 pub use project::{PROJECT_MARKER, create_project, find_project};
@@ -98,6 +99,24 @@ impl Files {
     #[must_use]
     pub fn observed(&self, observe: impl Fn(&str, &[u8]) + Send + Sync + 'static) -> Self {
         Self {
+            observers: self.observers.and(move |path, access| {
+                if let Access::Read(bytes) = access {
+                    observe(path, bytes);
+                }
+            }),
+            ..self.clone()
+        }
+    }
+
+    /// As [`Files::observed`], and told of files that are asked for and are in
+    /// no layer too: when one of them appears, what was made without it is to
+    /// be made again.
+    #[must_use]
+    pub fn observed_with_missing(
+        &self,
+        observe: impl Fn(&str, Access) + Send + Sync + 'static,
+    ) -> Self {
+        Self {
             observers: self.observers.and(observe),
             ..self.clone()
         }
@@ -155,7 +174,7 @@ impl Files {
                 .map(<[u8]>::to_vec)
                 .ok_or_else(|| FileError::not_found(path, self.project())),
         }?;
-        self.observers.tell(path, &bytes);
+        self.observers.tell(path, Access::Read(&bytes));
         Ok(bytes)
     }
 
@@ -174,6 +193,14 @@ impl Files {
     /// # Errors
     /// A path that is not allowed, or a file that is in no layer.
     pub fn origin(&self, path: &str) -> Result<Origin, FileError> {
+        let origin = self.look_up(path);
+        if let Err(FileError::NotFound { .. }) = &origin {
+            self.observers.tell(path, Access::Missing);
+        }
+        origin
+    }
+
+    fn look_up(&self, path: &str) -> Result<Origin, FileError> {
         if let Some((root, below)) = self.granted(path)? {
             return match inside(root, below, path)? {
                 Some(on_disk) => Ok(Origin::Project(on_disk)),

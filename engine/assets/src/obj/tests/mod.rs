@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used)]
 mod hostile;
+mod reuse;
 
 use std::fs;
 use std::path::Path;
