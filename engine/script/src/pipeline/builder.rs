@@ -247,8 +247,8 @@ impl Builder {
             desc.parameters.push(parameter);
         };
         add(&mut self.desc, HeatMap::parameter(at.clone()));
+        add(&mut self.desc, HeatMap::most_parameter(at.clone()));
         if let Some(map) = HeatMap::of(&self.desc) {
-            add(&mut self.desc, HeatMap::most_parameter(at.clone()));
             problems.extend(map.apply(&mut self.desc).err());
         }
         problems
