@@ -64,6 +64,11 @@ impl<'a> Api<'a> {
         self.engine
     }
 
+    /// Puts the functions that follow under a heading of the reference.
+    pub(crate) fn section(&mut self, title: &'static str) {
+        self.names.begin_section(title);
+    }
+
     /// Registers a type.
     pub(crate) fn object<T: ScriptType>(&mut self) {
         self.engine.register_type_with_name::<T>(T::NAME);
