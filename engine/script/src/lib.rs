@@ -27,6 +27,7 @@ mod names;
 mod noise;
 mod pipeline;
 mod random;
+pub mod reference;
 mod resolver;
 mod scene;
 mod settings;
