@@ -32,6 +32,7 @@ mod resolver;
 mod scene;
 mod settings;
 mod sources;
+mod spelling;
 mod syntax;
 #[cfg(test)]
 mod testing;

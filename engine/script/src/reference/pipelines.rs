@@ -12,38 +12,38 @@ use super::probe::{Probe, told};
 /// A part of the page: its heading, which is also that of the functions' registration, and what
 /// stands before the functions.
 const BEFORE_KINDS: [(&str, &str); 5] = [
-    ("Pipelines", include_str!("prose/pipelines.md")),
-    ("Parameters", include_str!("prose/parameters.md")),
-    ("Targets", include_str!("prose/targets.md")),
-    ("Buffers and counters", include_str!("prose/buffers.md")),
-    (PASSES, include_str!("prose/passes.md")),
+    ("Pipelines", include_str!("prose/pipelines.txt")),
+    ("Parameters", include_str!("prose/parameters.txt")),
+    ("Targets", include_str!("prose/targets.txt")),
+    ("Buffers and counters", include_str!("prose/buffers.txt")),
+    (PASSES, include_str!("prose/passes.txt")),
 ];
 const AFTER_KINDS: [(&str, &str); 5] = [
-    ("The shader", include_str!("prose/shader.md")),
+    ("The shader", include_str!("prose/shader.txt")),
     (
         "What the shader reads and updates",
-        include_str!("prose/resources.md"),
+        include_str!("prose/resources.txt"),
     ),
-    ("Colour targets", include_str!("prose/colours.md")),
-    ("Depth and stencil", include_str!("prose/depth.md")),
+    ("Colour targets", include_str!("prose/colours.txt")),
+    ("Depth and stencil", include_str!("prose/depth.txt")),
     (
         "Changing another pipeline",
-        include_str!("prose/changing.md"),
+        include_str!("prose/changing.txt"),
     ),
 ];
 const PASSES: &str = "Passes";
 
 /// What is said of each kind of pass, besides its methods.
 pub(super) const KINDS: [(&str, &str); 9] = [
-    ("geometry", include_str!("prose/kinds/geometry.md")),
-    ("lights", include_str!("prose/kinds/lights.md")),
-    ("fullscreen", include_str!("prose/kinds/fullscreen.md")),
-    ("compute", include_str!("prose/kinds/compute.md")),
-    ("clear", include_str!("prose/kinds/clear.md")),
-    ("copy", include_str!("prose/kinds/copy.md")),
-    ("resolve", include_str!("prose/kinds/resolve.md")),
-    ("mips", include_str!("prose/kinds/mips.md")),
-    ("history", include_str!("prose/kinds/history.md")),
+    ("geometry", include_str!("prose/kinds/geometry.txt")),
+    ("lights", include_str!("prose/kinds/lights.txt")),
+    ("fullscreen", include_str!("prose/kinds/fullscreen.txt")),
+    ("compute", include_str!("prose/kinds/compute.txt")),
+    ("clear", include_str!("prose/kinds/clear.txt")),
+    ("copy", include_str!("prose/kinds/copy.txt")),
+    ("resolve", include_str!("prose/kinds/resolve.txt")),
+    ("mips", include_str!("prose/kinds/mips.txt")),
+    ("history", include_str!("prose/kinds/history.txt")),
 ];
 
 /// The pipeline in which the mistakes of the page are made, where the comment stands.
@@ -92,7 +92,7 @@ impl Page<'_> {
              <!-- Written by `lightbench docs pipelines`. Change the texts in engine/script/src \
              instead. -->\n\n",
         );
-        text += &self.prose(include_str!("prose/introduction.md"));
+        text += &self.prose(include_str!("prose/introduction.txt"));
         text += &self.overview();
         for (title, prose) in BEFORE_KINDS {
             self.section(&mut text, title, prose);

@@ -24,7 +24,7 @@ pub fn shaders(files: &Files) -> Result<String, FileError> {
          <!-- Written by `lightbench docs shaders`. Change the comments in shaders/lib instead. \
          -->\n\n",
     );
-    text += include_str!("prose/shaders.md");
+    text += include_str!("prose/shaders.txt");
     text += "\n| module | what it is for | functions |\n| --- | --- | --- |\n";
     for module in &modules {
         let link = module.name.replace("::", "");

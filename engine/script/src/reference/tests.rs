@@ -56,7 +56,7 @@ fn every_kind_of_pass_is_explained_and_has_an_example() {
     let untold: Vec<_> = kinds.difference(&told).collect();
     assert!(
         untold.is_empty(),
-        "write engine/script/src/reference/prose/kinds/KIND.md for {untold:?}, name it in \
+        "write engine/script/src/reference/prose/kinds/KIND.txt for {untold:?}, name it in \
          reference/pipelines.rs, and write {EXAMPLES}/KIND.rhai"
     );
     assert_eq!(kinds, told, "a kind is gone");
@@ -139,7 +139,7 @@ fn ranges_choices_defaults_and_messages_are_those_of_the_program() {
         ),
         (
             ".shader",
-            "the pass has a shader already, `shaders/known.wgsl`\n",
+            "the pass has a shader already, `shaders/output.wgsl`\n",
         ),
         (
             "p.target",
