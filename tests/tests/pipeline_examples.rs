@@ -47,6 +47,20 @@ impl Examples {
         studio.renderer.read_target(pipeline, &shown).unwrap()
     }
 
+    /// Bytes that the cost model counts for a pass: read and written.
+    fn bytes(&mut self, kind: &str, pass: &str) -> (f64, f64) {
+        let mut pipeline = self.compile(kind, &[]);
+        let index = pipeline.desc.passes.iter().position(|p| p.name == pass);
+        let studio = &mut self.studio;
+        let (world, assets) = (&mut studio.scene.world, &studio.scene.assets);
+        let frame = studio
+            .renderer
+            .render_whole(world, assets, &mut pipeline, &studio.view, SIZE, 0.0)
+            .unwrap();
+        let traffic = frame.passes[index.unwrap()].traffic;
+        (traffic.read as f64, traffic.written as f64)
+    }
+
     fn light(&mut self, kind: &str, texts: &[&str]) -> TargetImage {
         let mut pipeline = self.compile(kind, texts);
         self.draw(&mut pipeline)
@@ -211,5 +225,102 @@ fn the_fullscreen_example_is_fog() {
                 "pixel {index}: {found} and {expected}"
             );
         }
+    }
+}
+
+/// The sentence on bytes at each kind of pass, as numbers: bytes read and written a pixel.
+#[test]
+fn the_cost_model_counts_what_the_reference_says() {
+    let pixels = f64::from(SIZE.0 * SIZE.1);
+    // Six levels of 8 bytes a texel, each half as large along each side, rounded down.
+    let level = |mip: u32| f64::from((SIZE.0 >> mip) * (SIZE.1 >> mip)) * 8.0 / pixels;
+    let levels = |range: std::ops::Range<u32>| range.map(level).sum::<f64>();
+    let mut examples = Examples::new();
+    for (kind, pass, read, written) in [
+        // Colour 8 bytes, depth 4: both are cleared, so nothing old is read.
+        ("geometry", "shade", 0.0, 12.0),
+        // Depth is read; colour is blended with.
+        ("fullscreen", "fog", 4.0 + 8.0, 8.0),
+        // The whole buffer of four words is written.
+        ("compute", "count", 8.0, 16.0 / pixels),
+        ("compute", "begin", 0.0, 16.0 / pixels),
+        ("clear", "background", 0.0, 4.0),
+        ("copy", "keep", 8.0, 8.0),
+        ("copy", "sharpen", 8.0, 8.0),
+        ("resolve", "shade", 0.0, 4.0 * 12.0),
+        ("resolve", "mean", 4.0 * 8.0, 8.0),
+        ("mips", "shrink", levels(0..5), levels(1..6)),
+        ("history", "keep", 8.0, 8.0),
+    ] {
+        let (found_read, found_written) = examples.bytes(kind, pass);
+        let bytes = |a_pixel: f64| (a_pixel * pixels).round();
+        assert_eq!(
+            (found_read, found_written),
+            (bytes(read), bytes(written)),
+            "{kind} {pass}"
+        );
+    }
+    // What a volume covers is not known here; what is read and written for it is: depth, 9 bytes of
+    // G-buffer and the old light against the new one.
+    let (read, written) = examples.bytes("lights", "lights");
+    assert!(written > 0.0);
+    assert!((read / written - (4.0 + 9.0 + 8.0) / 8.0).abs() < 1e-3);
+}
+
+/// What a shader finds in group 1 without a word of the pipeline has the names of the reference.
+#[test]
+fn samplers_and_mesh_buffers_have_the_names_of_the_reference() {
+    let page = lightbench::script::reference::pipelines(&Files::shipped()).unwrap();
+    let samplers = [
+        ("linear_sampler", "sampler"),
+        ("nearest_sampler", "sampler"),
+        ("depth_sampler", "sampler_comparison"),
+    ];
+    let buffers = ["mesh_positions", "mesh_attributes", "mesh_indices"];
+    let mut declarations = String::new();
+    for (index, (name, kind)) in samplers.iter().enumerate() {
+        declarations += &format!("@group(1) @binding({index}) var {name}: {kind};\n");
+        assert!(page.contains(&format!("`{name}`")), "{name}");
+    }
+    for (index, name) in buffers.iter().enumerate() {
+        declarations += &format!(
+            "@group(1) @binding({}) var<storage, read> {name}: array<f32>;\n",
+            index + 3
+        );
+        assert!(page.contains(&format!("`{name}`")), "{name}");
+    }
+    let compile = |declarations: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |path: &str, text: &str| {
+            let path = folder.path().join(path);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, text).unwrap();
+        };
+        write(
+            "shaders/all.wgsl",
+            &format!(
+                "{declarations}@fragment fn fragment_main() -> @location(0) vec4f {{ return vec4f(1.0); }}"
+            ),
+        );
+        write(
+            "scripts/pipelines/all.rhai",
+            "let p = pipeline(\"All\");\np.target(\"output\", \"rgba8unorm\");\n\
+             p.fullscreen(\"all\").shader(\"shaders/all.wgsl\").writes(\"output\");\n\
+             p.show(\"output\");\np",
+        );
+        let files = Files::with_project(folder.path()).unwrap();
+        let desc = load_pipeline(&files, "all", &settings(&[])).unwrap();
+        let renderer = lightbench::render::Renderer::new(lightbench_tests::gpu(false));
+        renderer.compiler().compile(&files, &desc).map(drop)
+    };
+    compile(&declarations).unwrap_or_else(|problems| panic!("{problems}"));
+    // There are no others.
+    let other = compile("@group(1) @binding(0) var smooth_one: sampler;\n").unwrap_err();
+    let hint = other.0[0].hint.clone().unwrap();
+    for name in hint
+        .split([' ', ','])
+        .filter(|word| word.ends_with("_sampler"))
+    {
+        assert!(samplers.iter().any(|(known, _)| *known == name), "{hint}");
     }
 }
