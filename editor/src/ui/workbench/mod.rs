@@ -264,10 +264,6 @@ impl Workbench {
                     let title = self.library.pipeline_title(&name).to_owned();
                     let ms = took.as_secs_f64() * 1e3;
                     self.log.info(format!("{title}: built in {ms:.0} ms."));
-                    if Some(name.as_str()) == self.pipelines.shown() {
-                        self.timings.reset();
-                        self.canvas.new_pipeline();
-                    }
                 }
                 News::Values(_) => self.canvas.invalidate(),
                 News::Failed(_, problems) => self.log_problems(&problems),

@@ -148,7 +148,10 @@ impl Pipelines {
             if result.is_ok() {
                 problems.extend(builder.unknown_settings());
             }
-            desc = Some(builder.desc.clone());
+            desc = Some(PipelineDesc {
+                scripts: compiler.sources.paths(),
+                ..builder.desc.clone()
+            });
         } else if result.is_ok() {
             problems.push(
                 Problem::new(
