@@ -6,6 +6,9 @@
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc)]
 
 pub mod compare;
+pub mod workshop;
+
+pub use workshop::Workshop;
 
 use lightbench::assets::Progress;
 use lightbench::assets::files::Files;

@@ -1,12 +1,10 @@
 //! Lights that are confined to meshes light exactly what lies inside.
 #![allow(clippy::unwrap_used)]
 
-use lightbench::assets::Progress;
-use lightbench::assets::files::Files;
 use lightbench::render::{Gpu, Renderer, View};
-use lightbench::script::{Settings, load_pipeline, load_scene};
+use lightbench::script::load_pipeline;
 use lightbench::world::glam::{Mat4, Vec3, Vec4};
-use lightbench_tests::{gpu, settings};
+use lightbench_tests::{Workshop, gpu, settings};
 
 const SIZE: (u32, u32) = (160, 90);
 
@@ -18,8 +16,6 @@ struct Lit {
 
 /// Draws a ground with balls on it, lit by `lights` alone.
 fn draw(gpu: Gpu, lights: &str, view: &View, scheme: &str) -> Lit {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::create_dir_all(folder.path().join("scripts/scenes")).unwrap();
     let scene = format!(
         "let paint = material(\"white\").color(1, 1, 1).specular(0);
         spawn(\"ground\").mesh(plane(40, 40)).material(paint);
@@ -30,15 +26,12 @@ fn draw(gpu: Gpu, lights: &str, view: &View, scheme: &str) -> Lit {
         }}
         {lights}"
     );
-    std::fs::write(folder.path().join("scripts/scenes/test.rhai"), scene).unwrap();
-    let files = Files::with_project(folder.path()).unwrap();
-    let mut scene = load_scene(&files, "test", &Settings::new(), &Progress::default())
-        .unwrap_or_else(|problems| panic!("{problems}"));
+    let workshop = Workshop::new();
+    let mut scene = workshop.scene(&scene);
     let options = settings(&[scheme, "threshold=0"]);
-    let desc = load_pipeline(&files, "deferred_shading", &options).unwrap();
+    let desc = load_pipeline(&workshop.files, "deferred_shading", &options).unwrap();
     let mut renderer = Renderer::new(gpu);
-    let mut pipeline = renderer.compiler().compile(&files, &desc).unwrap();
-    pipeline.keep_all_targets(true);
+    let mut pipeline = workshop.compile(&renderer, &desc);
     let (world, assets) = (&mut scene.world, &scene.assets);
     let statistics = renderer
         .render(world, assets, &mut pipeline, view, SIZE, 0.0)

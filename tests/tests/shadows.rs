@@ -1,13 +1,11 @@
 //! What `shadow` passes draw, against distances computed here.
 #![allow(clippy::unwrap_used)]
 
-use lightbench::assets::Progress;
-use lightbench::assets::files::Files;
 use lightbench::render::description::Slice;
 use lightbench::render::{Pipeline, Renderer, TargetImage, View};
-use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
+use lightbench::script::Scene;
 use lightbench::world::glam::Vec3;
-use lightbench_tests::gpu;
+use lightbench_tests::{Workshop, gpu};
 
 /// A scene and a pipeline of its own.
 struct Stage {
@@ -20,45 +18,11 @@ struct Stage {
 impl Stage {
     /// Draws one frame. `body` declares the passes, and a float target `result` that it fills.
     fn draw(scene: &str, body: &str, shaders: &[(&str, &str)], view: &View, size: u32) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let write = |path: &str, text: &str| {
-            let path = folder.path().join(path);
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(path, text).unwrap();
-        };
-        write("scripts/scenes/test.rhai", scene);
-        write(
-            "scripts/pipelines/test.rhai",
-            &format!(
-                "let p = pipeline(\"Test\");
-                {body}
-                p.target(\"output\", \"rgba8unorm\");
-                p.fullscreen(\"show\").shader(\"shaders/show.wgsl\").reads(\"result\").writes(\"output\");
-                p.show(\"output\");
-                p"
-            ),
-        );
-        write(
-            "shaders/show.wgsl",
-            "@group(1) @binding(0) var result: texture_2d<f32>;
-            @fragment fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-                return textureLoad(result, vec2u(pixel.xy), 0);
-            }",
-        );
-        for (name, text) in shaders {
-            write(&format!("shaders/{name}.wgsl"), text);
-        }
-        let files = Files::with_project(folder.path()).unwrap();
-        let mut scene = load_scene(&files, "test", &Settings::new(), &Progress::default())
-            .unwrap_or_else(|problems| panic!("{problems}"));
-        let desc = load_pipeline(&files, "test", &Settings::new())
-            .unwrap_or_else(|problems| panic!("{problems}"));
+        let workshop = Workshop::new();
+        let mut scene = workshop.scene(scene);
+        let desc = workshop.pipeline(body, shaders);
         let mut renderer = Renderer::new(gpu(false));
-        let mut pipeline = renderer
-            .compiler()
-            .compile(&files, &desc)
-            .unwrap_or_else(|problems| panic!("{problems}"));
-        pipeline.keep_all_targets(true);
+        let mut pipeline = workshop.compile(&renderer, &desc);
         let (world, assets) = (&mut scene.world, &scene.assets);
         let statistics = renderer
             .render(world, assets, &mut pipeline, view, (size, size), 0.0)
@@ -99,21 +63,19 @@ fn texel(image: &TargetImage, x: u32, y: u32) -> f32 {
 
 #[test]
 fn given_views_fill_one_layer_each() {
-    let body = format!(
-        "p.target(\"map\", \"depth32float\").size(32, 32).array(3);
+    let body = "p.target(\"map\", \"depth32float\").size(32, 32).array(3);
         p.shadow(\"views\")
             .box_from(vec3(0, 6, 0), vec3(0, 0, 0), 8, 1, 7)
             .view_from(vec3(0, 6, 0), vec3(0, 0, 0), 60, 1, 7)
             .box_from(vec3(0, 0.5, 6), vec3(0, 0.5, 0), 8, 1, 11)
             .depth(\"map\").clear(0.0);
         p.fullscreen(\"keep\").shader(\"shaders/keep.wgsl\").reads(\"map\").writes(\"result\");
-        p.target(\"result\", \"r32float\");"
-    );
+        p.target(\"result\", \"r32float\");";
     let keep = "@group(1) @binding(0) var map: texture_depth_2d_array;
         @fragment fn fragment_main() -> @location(0) vec4f {
             return vec4f(textureLoad(map, vec2u(0), 0, 0));
         }";
-    let stage = Stage::draw(TABLE, &body, &[("keep", keep)], &View::default(), 8);
+    let stage = Stage::draw(TABLE, body, &[("keep", keep)], &View::default(), 8);
     // Depth of a box is linear: the table's top 5 m away, the floor 6 m, of 1 to 7 m.
     let above = stage.layer("map", 0);
     for (x, y, distance) in [(16, 16, 5.0), (13, 13, 5.0), (18, 18, 5.0), (2, 16, 6.0)] {

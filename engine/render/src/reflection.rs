@@ -12,7 +12,7 @@ use crate::format::Format;
 use crate::shader::undecorate;
 
 /// The kind of numbers in a texture or a fragment output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SampleKind {
     /// Floats and normalised integers.
     Float,

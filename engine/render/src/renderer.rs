@@ -6,20 +6,23 @@ use std::time::Instant;
 
 use glam::Mat4;
 use lightbench_assets::Assets;
+use lightbench_assets::files::Files;
 use lightbench_world::{SystemTime, World, systems};
 
 use crate::compile::Compiler;
 use crate::description::Slice;
 use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
-use crate::inspect::Inspector;
+use crate::inspect::{Aspect, Inspector, read_any};
 use crate::layout::SceneLayout;
 use crate::pipeline::Pipeline;
+use crate::problem::Problem;
 use crate::queries::{Measured, Queries};
 use crate::readback::{TargetImage, read_bytes, read_image};
 use crate::record::{Recording, is_cold, measures, record, warm};
 use crate::scene::Scene;
 use crate::statistics::FrameStatistics;
+use crate::targets::Target;
 use crate::variant::Variants;
 use crate::view::View;
 
@@ -81,6 +84,9 @@ pub enum RenderError {
     /// The scene has meshes that the pipeline was not compiled for.
     #[error("the pipeline is not built yet for all meshes of the scene")]
     NotBuilt(Variants),
+    /// A shader that looks into frames has a mistake.
+    #[error("{0}")]
+    Shader(Problem),
     /// A target was asked for that the pipeline does not have, or before the first frame.
     #[error("the pipeline has no target `{0}` yet")]
     NoTarget(String),
@@ -94,6 +100,17 @@ pub enum RenderError {
         /// Its layers.
         layers: u32,
     },
+    /// A sample was asked for that the target does not have.
+    #[error("`{target}` has {samples} samples a texel, counted from 0")]
+    NoSample {
+        /// The target.
+        target: String,
+        /// Its samples.
+        samples: u32,
+    },
+    /// Stencil was asked for of a target that has none.
+    #[error("`{0}` has no stencil")]
+    NoStencil(String),
     /// The size asked for is beyond the device.
     #[error(
         "{width} × {height} is more than this device draws; its limit is {limit} in each direction"
@@ -202,8 +219,10 @@ impl Renderer {
             }
         }
         self.queries.resolve(&mut encoder);
+        self.inspector.end_frame(&mut encoder);
         self.submit(encoder);
         self.queries.submitted();
+        self.inspector.submitted();
 
         self.statistics.record_ms += started.elapsed().as_secs_f64() * 1e3;
         self.statistics.gpu_ms = None;
@@ -464,16 +483,53 @@ impl Renderer {
         name: &str,
         slice: Slice,
     ) -> Result<TargetImage, RenderError> {
+        let target = pipeline.targets().and_then(|targets| targets.get(name));
+        let target = target.ok_or_else(|| RenderError::NoTarget(name.to_owned()))?;
+        self.check_slice(target, slice)?;
+        Ok(read_image(&self.gpu, &target.texture, slice)?)
+    }
+
+    /// One sample of a mip level and layer of any target of the last frame, or its stencil: also of
+    /// targets that [`Renderer::read_target`] can't copy. Its shader comes from `files`.
+    ///
+    /// # Errors
+    /// As [`Renderer::read_target_slice`], and where there is no such sample or no stencil.
+    pub fn read_target_any(
+        &self,
+        pipeline: &Pipeline,
+        files: &Files,
+        name: &str,
+        slice: Slice,
+        sample: u32,
+        aspect: Aspect,
+    ) -> Result<TargetImage, RenderError> {
         let texture = self.texture(pipeline, name)?;
-        let layers = texture.depth_or_array_layers();
-        if slice.mip >= texture.mip_level_count() || slice.layer >= layers {
-            return Err(RenderError::NoSlice {
+        let samples = texture.sample_count();
+        if sample >= samples {
+            return Err(RenderError::NoSample {
                 target: name.to_owned(),
-                mips: texture.mip_level_count(),
-                layers,
+                samples,
             });
         }
-        Ok(read_image(&self.gpu, texture, slice)?)
+        if aspect == Aspect::Stencil && !texture.format().has_stencil_aspect() {
+            return Err(RenderError::NoStencil(name.to_owned()));
+        }
+        let target = pipeline.targets().and_then(|targets| targets.get(name));
+        let target = target.ok_or_else(|| RenderError::NoTarget(name.to_owned()))?;
+        self.check_slice(target, slice)?;
+        read_any(&self.gpu, files, target, slice, sample, aspect)
+    }
+
+    fn check_slice(&self, target: &Target, slice: Slice) -> Result<(), RenderError> {
+        let mips = target.texture.mip_level_count();
+        if slice.mip < mips && slice.layer < target.layers_of_mip(slice.mip) {
+            return Ok(());
+        }
+        Err(RenderError::NoSlice {
+            target: target.name.clone(),
+            mips,
+            layers: target.layers_of_mip(0),
+        })
     }
 
     fn texture<'a>(

@@ -241,6 +241,9 @@ impl Workbench {
                 }
                 self.canvas.drawn = Some(wanted);
                 self.canvas.problem = None;
+                if let Some(problem) = self.renderer.inspector().take_problem() {
+                    self.log.problem(&problem);
+                }
             }
             Err(RenderError::Gpu(error)) => self.device_failed(error),
             // The last picture stays until that is built.

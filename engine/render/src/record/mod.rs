@@ -14,7 +14,7 @@ use crate::compiled_pass::CompiledPass;
 use crate::description::{Geometry, PassDesc, PassKind};
 use crate::frame::{Frame, Step};
 use crate::gpu_pipelines::PassPipelines;
-use crate::inspect::Inspector;
+use crate::inspect::{Between, Inspector};
 use crate::pipeline::Pipeline;
 use crate::queries::{Measure, Queries};
 use crate::scene::MeshPool;
@@ -94,6 +94,14 @@ pub fn record(
             });
             continue;
         }
+        let between = Between {
+            index,
+            pass: desc,
+            list: pass.list,
+            targets,
+            frame: recording.frame,
+        };
+        inspector.before_pass(&between, encoder);
         let started = Instant::now();
         let mut cost = PassStatistics {
             traffic: traffic(desc, targets, coverage(desc, pass, recording.frame)),
@@ -132,7 +140,7 @@ pub fn record(
         }
         cost.cpu_ms = started.elapsed().as_secs_f64() * 1e3;
         statistics.push(cost);
-        inspector.after_pass(index, targets, &recording.frame.data, encoder);
+        inspector.after_pass(&between, encoder);
     }
 }
 
