@@ -3,9 +3,11 @@
 #![allow(clippy::unwrap_used)]
 
 use lightbench::assets::files::Files;
-use lightbench::render::{Pipeline, TargetImage};
+use lightbench::render::binding::provided;
+use lightbench::render::{Pipeline, Renderer, TargetImage, View};
 use lightbench::script::load_pipeline;
-use lightbench_tests::{Studio, settings};
+use lightbench::world::glam::Vec3;
+use lightbench_tests::{Studio, Workshop, settings};
 
 const SIZE: (u32, u32) = (150, 90);
 const FOLDER: &str = "scripts/pipelines/examples";
@@ -83,7 +85,7 @@ fn brightest(texel: &[f32; 4]) -> f32 {
 fn every_example_draws() {
     let mut examples = Examples::new();
     let listed = Files::shipped().list(FOLDER, "rhai").unwrap();
-    assert!(listed.len() >= 9);
+    assert!(listed.len() >= 10);
     for file in listed {
         let kind = file.path[FOLDER.len() + 1..].trim_end_matches(".rhai");
         let picture = examples.light(kind, &[]);
@@ -267,51 +269,89 @@ fn the_cost_model_counts_what_the_reference_says() {
     assert!((read / written - (4.0 + 9.0 + 8.0) / 8.0).abs() < 1e-3);
 }
 
-/// What a shader finds in group 1 without a word of the pipeline has the names of the reference.
+/// A board between a spot light and the floor: its shadow is where similar triangles put it, and
+/// outside of it nothing has changed.
 #[test]
-fn samplers_and_mesh_buffers_have_the_names_of_the_reference() {
-    let page = lightbench::script::reference::pipelines(&Files::shipped()).unwrap();
-    let samplers = [
-        ("linear_sampler", "sampler"),
-        ("nearest_sampler", "sampler"),
-        ("depth_sampler", "sampler_comparison"),
-    ];
-    let buffers = ["mesh_positions", "mesh_attributes", "mesh_indices"];
-    let mut declarations = String::new();
-    for (index, (name, kind)) in samplers.iter().enumerate() {
-        declarations += &format!("@group(1) @binding({index}) var {name}: {kind};\n");
-        assert!(page.contains(&format!("`{name}`")), "{name}");
+fn the_shadow_example_lays_shadows_where_geometry_says() {
+    let workshop = Workshop::new();
+    let mut scene = workshop.scene(
+        "let paint = material(\"paint\");
+        spawn(\"floor\").mesh(plane(12, 12)).material(paint);
+        spawn(\"board\").mesh(box(2, 0.02, 2)).material(paint).at(0, 2, 0);
+        spot_light(\"lamp\").at(0, 4, 0).aim(0, 0, 0).range(12).intensity(50).inner(60).outer(80);",
+    );
+    // From below the board straight down. The floor is 1.5 m away, the picture 6 m wide.
+    const SIDE: u32 = 120;
+    let angle = 2.0 * 2.0_f32.atan();
+    let eye = Vec3::new(0.0, 1.5, 0.0);
+    let view = View::look_at(eye, Vec3::new(0.0, 0.0, -1e-4), angle, 0.1, 10.0);
+    let mut renderer = Renderer::new(lightbench_tests::gpu(false));
+    let mut draw = |kind: &str| {
+        let path = format!("{FOLDER}/{kind}.rhai");
+        let desc = load_pipeline(&workshop.files, &path, &settings(&[])).unwrap();
+        let mut pipeline = workshop.compile(&renderer, &desc);
+        let (world, assets) = (&mut scene.world, &scene.assets);
+        let frame = renderer
+            .render_whole(world, assets, &mut pipeline, &view, (SIDE, SIDE), 0.0)
+            .unwrap()
+            .clone();
+        (renderer.read_target(&pipeline, "hdr").unwrap(), frame)
+    };
+    let (plain, _) = draw("geometry");
+    let (shadowed, frame) = draw("shadow");
+    // One view of 1024 × 1024 texels, cleared before: nothing is read.
+    let traffic = frame.passes[0].traffic;
+    assert_eq!((traffic.read, traffic.written), (0, 1024 * 1024 * 4));
+    assert_eq!(frame.passes[0].unplaced_lights, 0);
+
+    let metres = |at: usize| ((at as f32 + 0.5) / SIDE as f32 - 0.5) * 6.0;
+    // The upper rim of the board, 1 m from the middle, is 1.99 m below the lamp.
+    let rim = 4.0 / 1.99;
+    let (mut dark, mut lit) = (0, 0);
+    for (index, (plain, shadowed)) in plain.texels.iter().zip(&shadowed.texels).enumerate() {
+        let (x, z) = (index % SIDE as usize, index / SIDE as usize);
+        let from_middle = metres(x).abs().max(metres(z).abs());
+        if (from_middle - rim).abs() < 0.06 {
+            continue;
+        }
+        if from_middle < rim {
+            assert_eq!(brightest(shadowed), 0.0, "{x} {z}");
+            dark += usize::from(brightest(plain) > 0.01);
+        } else {
+            assert_eq!(shadowed, plain, "{x} {z}");
+            lit += usize::from(brightest(plain) > 0.01);
+        }
     }
-    for (index, name) in buffers.iter().enumerate() {
-        declarations += &format!(
-            "@group(1) @binding({}) var<storage, read> {name}: array<f32>;\n",
-            index + 3
-        );
-        assert!(page.contains(&format!("`{name}`")), "{name}");
+    assert!(dark > 6000 && lit > 3000, "{dark} {lit}");
+}
+
+/// What a shader finds in group 1 without a word of the pipeline compiles as the reference writes it.
+#[test]
+fn samplers_and_engine_buffers_are_declared_as_in_the_reference() {
+    let mut declarations = String::from("#import lightbench::shadow\n");
+    for (index, thing) in provided().enumerate() {
+        declarations += &format!("@group(1) @binding({index}) {};\n", thing.declaration);
     }
     let compile = |declarations: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        let write = |path: &str, text: &str| {
-            let path = folder.path().join(path);
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(path, text).unwrap();
-        };
-        write(
+        let workshop = Workshop::new();
+        workshop.write(
             "shaders/all.wgsl",
             &format!(
                 "{declarations}@fragment fn fragment_main() -> @location(0) vec4f {{ return vec4f(1.0); }}"
             ),
         );
-        write(
+        workshop.write(
             "scripts/pipelines/all.rhai",
             "let p = pipeline(\"All\");\np.target(\"output\", \"rgba8unorm\");\n\
              p.fullscreen(\"all\").shader(\"shaders/all.wgsl\").writes(\"output\");\n\
              p.show(\"output\");\np",
         );
-        let files = Files::with_project(folder.path()).unwrap();
-        let desc = load_pipeline(&files, "all", &settings(&[])).unwrap();
-        let renderer = lightbench::render::Renderer::new(lightbench_tests::gpu(false));
-        renderer.compiler().compile(&files, &desc).map(drop)
+        let desc = load_pipeline(&workshop.files, "all", &settings(&[])).unwrap();
+        let renderer = Renderer::new(lightbench_tests::gpu(false));
+        renderer
+            .compiler()
+            .compile(&workshop.files, &desc)
+            .map(drop)
     };
     compile(&declarations).unwrap_or_else(|problems| panic!("{problems}"));
     // There are no others.
@@ -321,6 +361,6 @@ fn samplers_and_mesh_buffers_have_the_names_of_the_reference() {
         .split([' ', ','])
         .filter(|word| word.ends_with("_sampler"))
     {
-        assert!(samplers.iter().any(|(known, _)| *known == name), "{hint}");
+        assert!(provided().any(|known| known.name == name), "{hint}");
     }
 }

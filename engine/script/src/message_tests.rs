@@ -291,6 +291,7 @@ const CALLS: &[&str] = &[
     "material(\"m\").surface(tiles_texture().size(8).pieces(2).stains(1)); 1",
     "material(\"m\").surface(weave_texture().size(8).stripes(2, 1)); 1",
     "material(\"m\").texture(checker_texture(4).size(8)); 1",
+    "point_light(\"l\").clip_volume(box(1, 2, 3), vec3(1, 0, 0)); 1",
 ];
 
 fn printed(call: &str) -> String {

@@ -7,6 +7,7 @@
 
 mod adapter;
 mod functions;
+mod parts;
 mod pipelines;
 mod probe;
 mod shaders;

@@ -4,9 +4,11 @@ use std::fmt::Write as _;
 
 use lightbench_assets::files::{FileError, Files};
 use lightbench_render::Format;
+use lightbench_render::binding::provided;
 use lightbench_render::reflection::SampleKind;
 
 use super::functions::{Function, functions};
+use super::parts::{parts, parts_row};
 use super::probe::{Probe, told};
 
 /// A part of the page: its heading, which is also that of the functions' registration, and what
@@ -18,8 +20,9 @@ const BEFORE_KINDS: [(&str, &str); 5] = [
     ("Buffers and counters", include_str!("prose/buffers.txt")),
     (PASSES, include_str!("prose/passes.txt")),
 ];
-const AFTER_KINDS: [(&str, &str); 5] = [
+const AFTER_KINDS: [(&str, &str); 6] = [
     ("The shader", include_str!("prose/shader.txt")),
+    ("What is drawn", include_str!("prose/drawn.txt")),
     (
         "What the shader reads and updates",
         include_str!("prose/resources.txt"),
@@ -34,9 +37,10 @@ const AFTER_KINDS: [(&str, &str); 5] = [
 const PASSES: &str = "Passes";
 
 /// What is said of each kind of pass, besides its methods.
-pub(super) const KINDS: [(&str, &str); 9] = [
+pub(super) const KINDS: [(&str, &str); 10] = [
     ("geometry", include_str!("prose/kinds/geometry.txt")),
     ("lights", include_str!("prose/kinds/lights.txt")),
+    ("shadow", include_str!("prose/kinds/shadow.txt")),
     ("fullscreen", include_str!("prose/kinds/fullscreen.txt")),
     ("compute", include_str!("prose/kinds/compute.txt")),
     ("clear", include_str!("prose/kinds/clear.txt")),
@@ -94,6 +98,7 @@ impl Page<'_> {
         );
         text += &self.prose(include_str!("prose/introduction.txt"));
         text += &self.overview();
+        text += &parts_row(self.files)?;
         for (title, prose) in BEFORE_KINDS {
             self.section(&mut text, title, prose);
         }
@@ -106,6 +111,7 @@ impl Page<'_> {
         for title in self.other_sections() {
             self.section(&mut text, title, "");
         }
+        text += &parts(self.files)?;
         Ok(text)
     }
 
@@ -233,7 +239,7 @@ impl Page<'_> {
     }
 
     /// Puts what the program knows into the blocks of a text: a mistake's message below it, the
-    /// bench of the mistakes, the table of formats.
+    /// bench of the mistakes, the tables.
     fn prose(&self, prose: &str) -> String {
         let mut text = String::new();
         let mut block = Block::None;
@@ -250,6 +256,10 @@ impl Page<'_> {
                 ("```formats", _) => {
                     block = Block::Table;
                     text += &formats();
+                }
+                ("```provided", _) => {
+                    block = Block::Table;
+                    text += &provided_table();
                 }
                 ("```", Block::Table) => block = Block::None,
                 ("```", Block::Mistake(snippet)) => {
@@ -290,6 +300,15 @@ fn formats() -> String {
             let kind = SampleKind::of_format(format.0).in_words();
             let _ = writeln!(text, "| `{name}` | {} | {kind} |", format.bytes_per_texel());
         }
+    }
+    text
+}
+
+/// What a shader finds in group 1 without a word of the pipeline.
+fn provided_table() -> String {
+    let mut text = String::from("| declared as | it |\n| --- | --- |\n");
+    for thing in provided() {
+        let _ = writeln!(text, "| `{}` | {} |", thing.declaration, thing.about);
     }
     text
 }

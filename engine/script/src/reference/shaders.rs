@@ -110,7 +110,11 @@ impl Module {
                 .split("#{")
                 .skip(1)
                 .filter_map(|rest| rest.split('}').next());
-            let flag = line.trim().strip_prefix("#ifdef ").map(str::trim);
+            let line = line.trim();
+            let flag = ["#ifdef ", "#if "].iter().find_map(|word| {
+                let rest = line.strip_prefix(word)?;
+                rest.split_whitespace().next()
+            });
             for name in values.chain(flag) {
                 if !self.defines.iter().any(|known| known == name) {
                     self.defines.push(name.to_owned());
@@ -123,7 +127,8 @@ impl Module {
     fn read_declarations(&mut self, text: &str) {
         let mut in_body = false;
         // Memory of a workgroup is no business of who calls the functions.
-        let hidden = |line: &str| line.starts_with('#') || line.starts_with("var<workgroup>");
+        let hidden = ["#import", "var<workgroup>"];
+        let hidden = |line: &str| hidden.iter().any(|start| line.starts_with(start));
         let mut lines: Vec<&str> = Vec::new();
         for line in text.lines() {
             if in_body {
@@ -132,7 +137,10 @@ impl Module {
             }
             if let Some(rest) = line.strip_prefix("fn ") {
                 let name = rest.split('(').next().unwrap_or_default();
-                self.functions.push(name.to_owned());
+                // Each variant of a module declares it again.
+                if !self.functions.iter().any(|known| known == name) {
+                    self.functions.push(name.to_owned());
+                }
             }
             let in_signature = lines.last().is_some_and(|last| last.ends_with(['(', ',']));
             let opens = line.starts_with("fn ") || (in_signature && line.starts_with(')'));
@@ -149,6 +157,7 @@ impl Module {
                 _ => lines.push(line),
             }
         }
+        leave_out_empty_variants(&mut lines);
         // Where something was left out, one empty line is enough.
         lines.dedup_by(|a, b| a.is_empty() && b.is_empty());
         self.declarations = lines.join("\n").trim().to_owned();
@@ -183,5 +192,17 @@ impl Module {
         }
         let _ = write!(text, "\n```wgsl\n{}\n```\n", self.declarations);
         text
+    }
+}
+
+/// Takes out `#ifdef`s in which nothing is declared.
+fn leave_out_empty_variants(lines: &mut Vec<&str>) {
+    let starts = |line: &str, word: &str| line.starts_with(word);
+    while let Some(end) = (0..lines.len()).find(|&end| {
+        let before = lines[..end].iter().rev().find(|line| !line.is_empty());
+        starts(lines[end], "#endif") && before.is_some_and(|line| starts(line, "#if"))
+    }) {
+        let begin = (0..end).rev().find(|&at| starts(lines[at], "#if"));
+        lines.drain(begin.unwrap_or(end)..=end);
     }
 }

@@ -131,11 +131,21 @@ fn ranges_choices_defaults_and_messages_are_those_of_the_program() {
         (".volumes", "- `on`: `true` or `false`\n- default: `true`\n"),
         (
             ".reads",
-            "- passes: `geometry`, `lights`, `fullscreen`, `compute`\n",
+            "- passes: `geometry`, `lights`, `shadow`, `fullscreen`, `compute`\n",
         ),
         (
             ".updates",
-            "- passes: `geometry`, `lights`, `fullscreen`, `compute`, `clear`\n",
+            "- passes: `geometry`, `lights`, `shadow`, `fullscreen`, `compute`, `clear`\n",
+        ),
+        (".faces", "- passes: `geometry`, `shadow`\n"),
+        (
+            ".view_from",
+            "- `eye`: a vec3\n- `target`: a vec3\n- `degrees`: a number from 1 to 170\n\
+             - `near`: a number from 0.0001 to 1000000\n",
+        ),
+        (
+            ".near",
+            "- `metres`: a number from 0.0001 to 1000\n- default: `0.05`\n",
         ),
         (
             ".shader",
@@ -162,6 +172,7 @@ fn ranges_choices_defaults_and_messages_are_those_of_the_program() {
     };
     assert_eq!(kind("p.copy_slice").as_deref(), Some("copy"));
     assert_eq!(kind(".draws").as_deref(), Some("geometry"));
+    assert_eq!(kind(".box_from").as_deref(), Some("shadow"));
     assert_eq!(kind(".blend"), None);
     assert_eq!(kind("p.target"), None);
 }
@@ -173,6 +184,73 @@ fn every_mistake_of_the_page_is_one() {
     assert!(page.matches("```text\n").count() > 60);
     assert!(!page.contains("```text\n\n```"), "a mistake has no message");
     assert!(!page.contains("```rhai mistake"), "a block is left over");
+}
+
+/// What a script declares with `fn` is on the page, with a comment.
+#[test]
+fn every_function_of_a_part_is_explained() {
+    let files = Files::shipped();
+    let page = pipelines(&files).unwrap();
+    let listed = files.list(parts::FOLDER, "rhai").unwrap();
+    assert!(listed.len() >= 8);
+    for file in listed {
+        let text = files.read_text(&file.path).unwrap();
+        assert!(text.starts_with("// "), "{} has no header", file.path);
+        let functions = parts::functions(&text);
+        let declared = text.matches("\nfn ").count();
+        assert_eq!(functions.len(), declared, "{}", file.path);
+        let part = file.path[parts::FOLDER.len() + 1..].trim_end_matches(".rhai");
+        for (form, about) in functions {
+            assert!(about.ends_with('.'), "{}: `{form}` has no text", file.path);
+            let form = format!("`{part}::{form}`");
+            let joined = page.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(joined.contains(&format!("- {form}: {about}")), "{form}");
+        }
+    }
+}
+
+#[test]
+fn the_readme_names_every_pipeline() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
+    let readme = std::fs::read_to_string(readme).unwrap();
+    let pipelines = Files::shipped().list("scripts/pipelines", "rhai").unwrap();
+    let names = pipelines.iter().filter_map(|file| {
+        let name = file.path.strip_prefix("scripts/pipelines/")?;
+        name.strip_suffix(".rhai")
+            .filter(|name| !name.contains('/'))
+    });
+    let names: Vec<&str> = names.collect();
+    assert!(names.len() >= 13);
+    for name in names {
+        let mut rows = readme.lines().filter(|line| line.starts_with("| `"));
+        let quoted = format!("`{name}`");
+        assert!(
+            rows.any(|row| row
+                .split('|')
+                .nth(1)
+                .is_some_and(|cell| cell.contains(&quoted))),
+            "README.md has no line for {name}"
+        );
+    }
+}
+
+/// All that shaders get by declaring it stands in the table, as it is written in WGSL.
+#[test]
+fn every_sampler_and_engine_buffer_is_explained() {
+    let page = pipelines(&Files::shipped()).unwrap();
+    for thing in lightbench_render::binding::provided() {
+        let row = format!("| `{}` | {} |", thing.declaration, thing.about);
+        assert!(page.contains(&row), "{row}");
+        assert!(!thing.about.is_empty());
+    }
+}
+
+#[test]
+fn every_format_is_explained() {
+    let page = pipelines(&Files::shipped()).unwrap();
+    for name in lightbench_render::Format::names() {
+        assert!(page.contains(&format!("| `{name}` | ")), "{name}");
+    }
 }
 
 #[test]
@@ -196,7 +274,16 @@ fn modules_are_read_as_they_are_written() {
         }
     }
     assert!(
-        !page.contains("\n    return ") && !page.contains("\n    let ") && !page.contains("#ifdef"),
+        !page.contains("\n    return ") && !page.contains("\n    let "),
         "bodies are left out"
     );
+    assert!(
+        page.contains("#ifdef DEPTH\n#ifdef SAMPLES\n@group(0)"),
+        "what is declared in one variant alone is marked"
+    );
+    let lines = |start: &str| page.lines().filter(|line| line.starts_with(start)).count();
+    assert_eq!(lines("#if"), lines("#endif"));
+    let all: Vec<&str> = page.lines().filter(|line| !line.is_empty()).collect();
+    let empty = |pair: &&[&str]| pair[0].starts_with("#if") && pair[1].starts_with("#endif");
+    assert!(!all.windows(2).any(|pair| empty(&pair)));
 }

@@ -164,6 +164,9 @@ fn colors(pass: &PassDesc) -> Result<(), Mistake> {
     takes_targets(pass)?;
     match pass.kind {
         PassKind::Compute(_) => Err(Mistake::new("a compute pass has no colour targets")),
+        PassKind::Shadow(_) => Err(Mistake::new(
+            "a shadow pass draws depth alone and has no colour targets",
+        )),
         _ => Ok(()),
     }
 }

@@ -9,6 +9,7 @@ use super::{Open, method, only_for};
 use crate::api::{Api, Mistake};
 
 pub(super) fn register(api: &mut Api) {
+    api.section("What is drawn");
     geometry(api);
     repeat(api);
     lights(api);
@@ -56,7 +57,7 @@ fn geometry(api: &mut Api) {
         api,
         "pull_vertices(on)",
         "Draws without vertex buffers: the shader's own vertex stage gets `vertex_index` 0, 1, 2, … \
-         three for each triangle, and fetches from `mesh_indices` and `mesh_positions`.",
+         three for each triangle, and fetches the vertices with `lightbench::mesh`.",
         |open, arguments| {
             let on = arguments.switch(0)?;
             of_geometry(open, "pull_vertices", |geometry| {
@@ -69,7 +70,7 @@ fn geometry(api: &mut Api) {
         "layers(count)",
         "Spreads the objects over so many layers, such that those that overlap on the screen are in \
          different ones as far as there are enough. Shaders find an object's layer, from 0, in \
-         `drawn_objects`.",
+         `scene::drawn_objects`. Default: `0`.",
         |open, arguments| {
             let layers = arguments.whole(0, 0, MAX_LAYERS as i64)? as u32;
             of_geometry(open, "layers", |geometry| geometry.layers = layers)

@@ -78,8 +78,8 @@ pub(super) fn register(api: &mut Api) {
     transfer::register(api);
     again(api);
     shader::register(api);
-    shadow::register(api);
     kinds::register(api);
+    shadow::register(api);
     compute::register(api);
     resources::register(api);
     colors::register(api);

@@ -36,7 +36,8 @@ impl Probe {
                 let line = call(&site.before, entry, &values(arguments)) + site.behind;
                 arguments.len() == entry.arguments.len() && self.mistake(&line).is_none()
             };
-            if let Some(right) = with_other_texts(&arguments).find(fits) {
+            let others = with_other_texts(&arguments).chain(std::iter::once(rising(&arguments)));
+            if let Some(right) = { others }.find(fits) {
                 return right;
             }
             if arguments.len() > best.len() {
@@ -65,6 +66,11 @@ impl Probe {
                     Argument::new(name, takes, value)
                 }
                 Some("`true` or `false`") => Argument::new(name, "`true` or `false`", "true"),
+                // Each another point.
+                Some("a vec3") => {
+                    let value = format!("vec3({}, 0, 0)", found.len());
+                    Argument::new(name, "a vec3", value)
+                }
                 Some("an array") => Argument::new(name, "an array of texts", "[\"a\", \"b\"]"),
                 Some(other) => Argument::new(name, other, "0"),
                 None => return found,
@@ -138,6 +144,17 @@ pub(super) fn with_other_texts(arguments: &[Argument]) -> impl Iterator<Item = V
         })
     });
     std::iter::once(arguments.to_vec()).chain(others)
+}
+
+/// The arguments, with numbers of which each is larger than the one before.
+fn rising(arguments: &[Argument]) -> Vec<Argument> {
+    let mut rising = arguments.to_vec();
+    for (index, argument) in rising.iter_mut().enumerate() {
+        if let Ok(least) = argument.value.parse::<f64>() {
+            argument.value = (least + index as f64).to_string();
+        }
+    }
+    rising
 }
 
 /// The values of arguments.
