@@ -130,8 +130,8 @@ impl Binder<'_> {
         }
     }
 
-    /// The `.reads` for a variable, or a report.
-    fn read(&mut self, variable: &str) -> Option<&Read> {
+    /// The `.reads` for a variable, or a report. `others` are names that need none.
+    fn read(&mut self, variable: &str, others: &[&str]) -> Option<&Read> {
         let pass = self.pass;
         let found = pass.reads.iter().find(|read| read.variable == variable);
         if found.is_none() {
@@ -144,7 +144,7 @@ impl Binder<'_> {
                 return None;
             }
             let names = pass.reads.iter().map(|read| read.variable.as_str());
-            let hint = suggestion(variable, names)
+            let hint = suggestion(variable, names.chain(others.iter().copied()))
                 .unwrap_or_else(|| format!("add .reads(\"{variable}\") to the pass"));
             self.report(
                 variable,
@@ -175,7 +175,7 @@ impl Binder<'_> {
 
     fn texture(&mut self, variable: &str, texture: TextureType) -> Option<Source> {
         let desc = self.desc;
-        let read = self.read(variable)?.clone();
+        let read = self.read(variable, &[])?.clone();
         let Some(target) = desc.target(&read.target) else {
             if desc.buffer(&read.target).is_some() {
                 self.report(
@@ -295,7 +295,8 @@ impl Binder<'_> {
         let name = if writable {
             self.update(variable)?.target.clone()
         } else {
-            self.read(variable)?.target.clone()
+            let engine = ENGINE_BUFFERS.map(|(name, _)| name);
+            self.read(variable, &engine)?.target.clone()
         };
         if desc.buffer(&name).is_none() {
             if let Some(target) = desc.target(&name) {
