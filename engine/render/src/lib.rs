@@ -17,6 +17,7 @@ pub mod frame;
 pub mod gpu;
 pub mod gpu_data;
 pub mod gpu_pipelines;
+pub mod heat_map;
 pub mod inspect;
 pub mod layout;
 pub mod life;

@@ -194,7 +194,7 @@ fn every_mistake_in_a_shader_is_named_with_line_and_column() {
              @group(1) @binding(2) var depth_sampler: sampler_comparison;\n@fragment\n\
              fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {\n\
              _ = textureSampleCompareLevel(depth, depth_sampler, pixel.xy, 1u, 0.5);\n",
-            ":5:",
+            ":6:63: automatic conversions",
         ),
         (
             "fragment_main",

@@ -6,8 +6,10 @@ mod parameters;
 mod passes;
 mod targets;
 
+use std::sync::Arc;
 use std::time::Duration;
 
+use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::{Files, Origin};
 use lightbench_render::{PipelineDesc, Problem, Problems};
 use rhai::AST;
@@ -69,6 +71,7 @@ impl Workshop {
             Extras {
                 register: &mut |api, _, _| builder::register(api, &made),
                 globals: Vec::new(),
+                reuse: Reuse::default(),
             },
         );
         Self {
@@ -90,8 +93,8 @@ impl Workshop {
         self.run(self.host.compile(&self.path, text))
     }
 
-    fn run(&self, compiled: Result<AST, Problem>) -> Result<PipelineDesc, Problems> {
-        let run = |ast| self.host.run(&ast, &self.path, self.load_time);
+    fn run(&self, compiled: Result<Arc<AST>, Problem>) -> Result<PipelineDesc, Problems> {
+        let run = |ast: Arc<AST>| self.host.run(&ast, &self.path, self.load_time);
         self.made
             .finish(compiled.and_then(run), &self.host.compiler)
     }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use lightbench_assets::files::{FileError, Files};
 use lightbench_render::Format;
 use lightbench_render::binding::provided;
+use lightbench_render::heat_map::HeatMap;
 use lightbench_render::reflection::SampleKind;
 
 use super::functions::{Function, functions};
@@ -261,6 +262,10 @@ impl Page<'_> {
                     block = Block::Table;
                     text += &provided_table();
                 }
+                ("```heat_maps", _) => {
+                    block = Block::Table;
+                    text += &heat_maps();
+                }
                 ("```", Block::Table) => block = Block::None,
                 ("```", Block::Mistake(snippet)) => {
                     let problems = self.probe.problems(&BENCH.replace(MISTAKE, snippet));
@@ -309,6 +314,15 @@ fn provided_table() -> String {
     let mut text = String::from("| declared as | it |\n| --- | --- |\n");
     for thing in provided() {
         let _ = writeln!(text, "| `{}` | {} |", thing.declaration, thing.about);
+    }
+    text
+}
+
+/// What can take the picture's place.
+fn heat_maps() -> String {
+    let mut text = String::from("| `heat_map` | counts |\n| --- | --- |\n");
+    for (name, map) in HeatMap::NAMES {
+        let _ = writeln!(text, "| `{name}` | {} |", map.title());
     }
     text
 }
