@@ -418,11 +418,11 @@ impl Renderer {
         self.scene.lights()
     }
 
-    /// Query results that have come back, without waiting.
+    /// Query results that have come back, without waiting; until the next call.
     ///
     /// # Errors
     /// When the device failed.
-    pub fn poll(&mut self) -> Result<Vec<Measured>, GpuError> {
+    pub fn poll(&mut self) -> Result<&[Measured], GpuError> {
         if let Err(error) = self.gpu.device.poll(wgpu::PollType::Poll) {
             return Err(GpuError::Driver(error.to_string()));
         }
@@ -436,7 +436,7 @@ impl Renderer {
     /// When the device failed or takes longer than `seconds`.
     pub fn finish(&mut self, seconds: u64) -> Result<Vec<Measured>, GpuError> {
         self.gpu.wait(seconds)?;
-        Ok(self.queries.collect())
+        Ok(self.queries.collect().to_vec())
     }
 
     /// The display-ready picture of the last frame, 8 bits a channel, sRGB, rows from the top.
