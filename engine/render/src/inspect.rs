@@ -290,7 +290,7 @@ impl Inspector {
     }
 
     fn build(&self, files: &Files) -> Result<Vec<Display>, Problem> {
-        let mut composer = ShaderComposer::new(files, naga::valid::Capabilities::empty())?;
+        let mut composer = ShaderComposer::new(files, self.gpu.capabilities())?;
         let shader = composer.compose(files, INSPECT_SHADER, &[])?;
         let names = shader.module.entry_points.iter().map(|e| e.name.as_str());
         let known: Vec<&str> = names.collect();

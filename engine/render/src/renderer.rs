@@ -15,8 +15,10 @@ use crate::pipeline::Pipeline;
 use crate::queries::{Measured, Queries};
 use crate::readback::{TargetImage, read_bytes, read_image};
 use crate::record::{Recording, measures, record};
+use crate::room::check_room;
 use crate::scene::Scene;
 use crate::statistics::FrameStatistics;
+use crate::targets::Targets;
 use crate::view::View;
 
 /// How often a frame is drawn before a buffer that is still too small is left so.
@@ -48,6 +50,9 @@ pub enum RenderError {
     /// The scene does not fit the device.
     #[error("{0}")]
     Scene(String),
+    /// The pipeline can't be drawn at the size.
+    #[error("{0}")]
+    Room(String),
     /// A target was asked for that the pipeline does not have, or before the first frame.
     #[error("the pipeline has no target `{0}` yet")]
     NoTarget(String),
@@ -165,6 +170,13 @@ impl Renderer {
 
         let started = Instant::now();
         let lights = self.scene.lights().len() as u32;
+        let same = |targets: &Targets| targets.size == (width, height) && lights <= targets.lights;
+        if !pipeline.targets().is_some_and(same) {
+            let limits = self.gpu.device.limits();
+            let room = lights.next_power_of_two();
+            check_room(&pipeline.desc, &limits, (width, height), room)
+                .map_err(RenderError::Room)?;
+        }
         let engine = self.scene.engine_buffers();
         let numbers = (self.serial, self.index);
         let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights, numbers);

@@ -1,17 +1,32 @@
 //! From shader files to checked modules: imports, defines, validation, reflection.
 
-use std::collections::{BTreeMap, HashMap};
+mod conversion;
+mod declarations;
+mod explain;
+mod imports;
+mod listing;
+mod syntax;
+mod tokens;
+mod validity;
+
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use lightbench_assets::files::Files;
-use naga::valid::Capabilities;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga_oil::compose::{
     ComposableModuleDescriptor, Composer, ComposerError, ComposerErrorInner, NagaModuleDescriptor,
     ShaderDefValue,
 };
 
 use crate::description::Define;
-use crate::problem::{Place, Problem, suggestion};
+use crate::guard;
+use crate::problem::{Place, Problem};
+use explain::Explainer;
+use listing::Defines;
+
+pub use declarations::Listings;
+pub use listing::Listing;
+pub(crate) use listing::with_plain_line_ends;
 
 /// A shader that parsed and validated, before any pipeline is built from it.
 #[derive(Clone, Debug)]
@@ -22,18 +37,29 @@ pub struct Shader {
     pub text: String,
     /// The composed module.
     pub module: naga::Module,
+    /// What validation found out about it.
+    pub info: ModuleInfo,
+    /// The files that it was composed from, to find where its names are declared.
+    pub listings: Listings,
 }
 
 /// The folder of modules that shaders import.
 const MODULES: &str = "shaders/lib";
 
+/// A file of the modules' folder.
+struct ModuleFile {
+    /// What shaders import it by, as in `lightbench::scene`.
+    name: String,
+    path: String,
+    /// The text as it was written; the composer rewrites names in it.
+    text: String,
+}
+
 /// Composes shaders from files and remembers the modules that they import.
 pub struct ShaderComposer {
     composer: Composer,
-    /// Import path (`lightbench::scene`) to file path.
-    module_files: HashMap<String, String>,
-    /// File path to the module's text as it was written; the composer rewrites names in it.
-    module_texts: BTreeMap<String, String>,
+    capabilities: Capabilities,
+    modules: Vec<ModuleFile>,
 }
 
 impl ShaderComposer {
@@ -43,63 +69,67 @@ impl ShaderComposer {
     /// # Errors
     /// The first mistake in a module, with its place.
     pub fn new(files: &Files, capabilities: Capabilities) -> Result<Self, Problem> {
-        let mut composer = Composer::default().with_capabilities(capabilities);
-        composer.validate = true;
+        let modules = read_modules(files)?;
         let mut this = Self {
-            composer,
-            module_files: HashMap::new(),
-            module_texts: BTreeMap::new(),
+            composer: Composer::default().with_capabilities(capabilities),
+            capabilities,
+            modules,
         };
-        this.add_modules(files)?;
+        this.add_modules()?;
         Ok(this)
     }
 
     /// Adds the modules in an order in which each finds what it imports.
-    fn add_modules(&mut self, files: &Files) -> Result<(), Problem> {
+    fn add_modules(&mut self) -> Result<(), Problem> {
         let mut waiting = Vec::new();
-        let listed = files
-            .list(MODULES, "wgsl")
-            .map_err(|error| Problem::new(Place::file(MODULES), error.to_string()))?;
-        for entry in listed {
-            let text = read(files, &entry.path)?;
-            let Some(name) = import_path(&text) else {
-                return Err(Problem::new(
-                    Place::new(entry.path.as_str(), 1, 0),
-                    "the module has no name",
-                )
-                .with_hint("add a line such as `#define_import_path lightbench::name`"));
-            };
-            self.module_files.insert(name.clone(), entry.path.clone());
-            self.module_texts.insert(entry.path.clone(), text.clone());
-            waiting.push((name, entry.path, text));
+        for (index, module) in self.modules.iter().enumerate() {
+            let listing = Listing::outline(&module.path, &module.text)?;
+            imports::check_names(&listing, &self.names())?;
+            waiting.push((index, listing));
         }
         while !waiting.is_empty() {
-            let names: Vec<String> = waiting.iter().map(|(name, ..)| name.clone()).collect();
-            let ready = waiting
-                .iter()
-                .position(|(_, _, text)| !names.iter().any(|name| imports(text, name)));
-            let Some(ready) = ready else {
-                let (name, path, _) = &waiting[0];
-                return Err(Problem::new(
-                    Place::file(path.as_str()),
-                    format!(
-                        "the modules {} import each other in a circle",
-                        names.join(", ")
-                    ),
-                )
-                .with_hint(format!("let `{name}` import nothing that imports it")));
+            let names: Vec<&str> = self.names();
+            let waits = |listing: &Listing| {
+                listing.imports.iter().any(|import| {
+                    let imported = imports::module_of(&import.path, &names);
+                    let mut others = waiting.iter();
+                    others.any(|(other, _)| Some(names[*other]) == imported)
+                })
             };
-            let (_, path, text) = waiting.swap_remove(ready);
+            let Some(ready) = waiting.iter().position(|(_, listing)| !waits(listing)) else {
+                return Err(circle(&waiting, &names));
+            };
+            let (index, listing) = waiting.swap_remove(ready);
+            let module = &self.modules[index];
             let descriptor = ComposableModuleDescriptor {
-                source: &text,
-                file_path: &path,
+                source: &module.text,
+                file_path: &module.path,
                 ..Default::default()
             };
-            if let Err(error) = self.composer.add_composable_module(descriptor) {
-                return Err(self.explain(&error, &path, &text));
+            let composer = &mut self.composer;
+            let added = guard::catch(|| composer.add_composable_module(descriptor).map(|_| ()));
+            let added = added.map_err(|fault| unexpected(&module.path, &fault))?;
+            if let Err(error) = added {
+                let listings = Listings::new(listing, Vec::new());
+                return Err(self.explain(&error, &listings, None));
             }
         }
         Ok(())
+    }
+
+    /// The names of all modules.
+    fn names(&self) -> Vec<&str> {
+        self.modules
+            .iter()
+            .map(|module| module.name.as_str())
+            .collect()
+    }
+
+    /// A listing of a module.
+    fn list_module(&self, module: &ModuleFile, defines: &Defines) -> Result<Listing, Problem> {
+        let listing = Listing::new(&module.path, &module.text, defines, true)?;
+        imports::check_names(&listing, &self.names())?;
+        Ok(listing)
     }
 
     /// Composes and validates the shader in `path` with `defines` set.
@@ -117,29 +147,93 @@ impl ShaderComposer {
             return Err(Problem::new(Place::file(path), "the shader is empty")
                 .with_hint("an editor may be half-way through saving it; save it again"));
         }
-        self.check_imports(path, &text)?;
-        let shader_defs = defines
+        let listings = self.list(path, &text, defines)?;
+        let composed = self.make(path, &text, defines, true)?;
+        let module = match composed {
+            Ok(module) => module,
+            Err(error) => {
+                // What is not valid can be looked at all the same, to say what it is.
+                let invalid = matches!(error.inner, ComposerErrorInner::ShaderValidationError(_));
+                let module = match invalid {
+                    true => self.make(path, &text, defines, false)?.ok(),
+                    false => None,
+                };
+                let explained = guard::catch(|| self.explain(&error, &listings, module.as_ref()));
+                return Err(explained.unwrap_or_else(|fault| unexpected(path, &fault)));
+            }
+        };
+        let mut validator = Validator::new(ValidationFlags::all(), self.capabilities);
+        let info = guard::catch(|| validator.validate(&module))
+            .map_err(|fault| unexpected(path, &fault))?
+            .map_err(|error| unexpected(path, &error.as_inner().to_string()))?;
+        Ok(Shader {
+            path: path.to_owned(),
+            text,
+            module,
+            info,
+            listings,
+        })
+    }
+
+    /// The files of a shader, each with the branches that the defines leave.
+    fn list(&self, path: &str, text: &str, defines: &[Define]) -> Result<Listings, Problem> {
+        let names = self.names();
+        let mut values: Defines = defines
             .iter()
-            .map(|define| {
-                let value = define
-                    .value
-                    .map_or(ShaderDefValue::Bool(true), ShaderDefValue::Int);
-                (define.name.clone(), value)
-            })
+            .map(|define| (define.name.clone(), define.value))
             .collect();
+        let shader = Listing::new(path, text, &values, false)?;
+        imports::check_names(&shader, &names)?;
+        values.extend(shader.defines.clone());
+        let mut wanted: Vec<&str> = imported(&shader, &names);
+        let mut modules: Vec<(String, Listing)> = Vec::new();
+        while let Some(name) = wanted.pop() {
+            if modules.iter().any(|(known, _)| known == name) {
+                continue;
+            }
+            let Some(module) = self.modules.iter().find(|module| module.name == name) else {
+                continue;
+            };
+            let listing = self.list_module(module, &values)?;
+            wanted.extend(imported(&listing, &names));
+            modules.push((name.to_owned(), listing));
+        }
+        Ok(Listings::new(shader, modules))
+    }
+
+    /// Lets the composer make one module of a shader and what it imports.
+    ///
+    /// # Errors
+    /// A fault of the composer; what it has to say of the shader is the value.
+    fn make(
+        &mut self,
+        path: &str,
+        text: &str,
+        defines: &[Define],
+        validate: bool,
+    ) -> Result<Result<naga::Module, Box<ComposerError>>, Problem> {
+        let value = |define: &Define| {
+            let value = define.value;
+            value.map_or(ShaderDefValue::Bool(true), ShaderDefValue::Int)
+        };
         let descriptor = NagaModuleDescriptor {
-            source: &text,
+            source: text,
             file_path: path,
-            shader_defs,
+            shader_defs: defines.iter().map(|d| (d.name.clone(), value(d))).collect(),
             ..Default::default()
         };
-        match self.composer.make_naga_module(descriptor) {
-            Ok(module) => Ok(Shader {
-                path: path.to_owned(),
-                text,
-                module,
-            }),
-            Err(error) => Err(self.explain(&error, path, &text)),
+        let composer = &mut self.composer;
+        composer.validate = validate;
+        let made = guard::catch(|| composer.make_naga_module(descriptor).map_err(Box::new));
+        composer.validate = true;
+        match made {
+            Ok(made) => Ok(made),
+            Err(fault) => {
+                // What the composer was in the middle of is lost.
+                self.composer = Composer::default().with_capabilities(self.capabilities);
+                self.add_modules()?;
+                Err(unexpected(path, &fault))
+            }
         }
     }
 
@@ -148,133 +242,107 @@ impl ShaderComposer {
     pub fn fingerprint(&self, text: &str, defines: &[Define]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (text, defines).hash(&mut hasher);
-        self.module_texts.hash(&mut hasher);
+        for module in &self.modules {
+            (&module.path, &module.text).hash(&mut hasher);
+        }
         hasher.finish()
     }
 
-    /// The composer looks for a module only where something of it is used; a misspelt import of an
-    /// unused one is a mistake all the same.
-    fn check_imports(&self, path: &str, text: &str) -> Result<(), Problem> {
-        for (number, line) in text.lines().enumerate() {
-            let Some(rest) = line.trim_start().strip_prefix("#import") else {
-                continue;
-            };
-            let name = rest.trim().split([' ', '{', ';']).next().unwrap_or("");
-            let name = name.trim_end_matches(':').trim_matches('"');
-            // `lightbench::scene::frame` imports an item of `lightbench::scene`.
-            let known = |module: &String| {
-                name.strip_prefix(module.as_str())
-                    .is_some_and(|item| item.is_empty() || item.starts_with("::"))
-            };
-            if !self.module_files.keys().any(known) {
-                let column = line.find(name).unwrap_or(0) as u32 + 1;
-                return Err(self.unknown_module(
-                    name,
-                    Place::new(path, number as u32 + 1, column),
-                    text,
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    fn unknown_module(&self, name: &str, at: Place, text: &str) -> Problem {
-        let mut names: Vec<&str> = self.module_files.keys().map(String::as_str).collect();
-        names.sort_unstable();
-        let hint = suggestion(name, names.iter().copied())
-            .unwrap_or_else(|| format!("the modules are: {}", names.join(", ")));
-        Problem::new(at, format!("there is no module `{name}`"))
-            .with_source(text)
-            .with_hint(hint)
-    }
-
-    /// Says where and what a composer's error is.
-    fn explain(&self, error: &ComposerError, path: &str, text: &str) -> Problem {
-        // naga_oil numbers bytes in the composed text: the top bits name the module.
-        const POSITION_BITS: u32 = 21;
-        let source = error.source.source(&self.composer);
-        let file = error.source.path(&self.composer);
-        let source: &str = if source.is_empty() { text } else { &source };
-        let file = if file.is_empty() { path } else { file };
-        let offset = error.source.offset();
-        let local = |byte: usize| (byte & ((1 << POSITION_BITS) - 1)).saturating_sub(offset);
-        // What the person wrote, which is what messages quote.
-        let written = if file == path {
-            text
-        } else {
-            self.module_texts.get(file).map_or(source, String::as_str)
+    fn explain(
+        &self,
+        error: &ComposerError,
+        listings: &Listings,
+        composed: Option<&naga::Module>,
+    ) -> Problem {
+        let explainer = Explainer {
+            composer: &self.composer,
+            listings,
+            modules: &self.names(),
+            composed,
         };
-        let place = |byte: usize| written_place(file, source, written, byte);
-        let start =
-            |span: Option<std::ops::Range<usize>>| span.map_or(0, |range| local(range.start));
+        explainer.with_source(explainer.explain(error))
+    }
+}
 
-        match &error.inner {
-            ComposerErrorInner::WgslParseError(parse) => {
-                let label = parse.labels().next();
-                let at = start(label.as_ref().and_then(|(span, _)| span.to_range()));
-                let detail = label
-                    .map(|(_, text)| text.to_owned())
-                    .filter(|text| !text.is_empty());
-                let message = self.composer_text(parse.message());
-                let mut problem = Problem::new(place(at), message.clone()).with_source(written);
-                problem.hint = detail
-                    .map(|d| self.composer_text(&d))
-                    .filter(|d| !message.contains(d.as_str()));
-                problem
-            }
-            ComposerErrorInner::ShaderValidationError(invalid)
-            | ComposerErrorInner::HeaderValidationError(invalid) => {
-                // The causes go from "entry point is invalid" to the reason: the last is the point.
-                let mut message = invalid.as_inner().to_string();
-                let mut cause = std::error::Error::source(invalid.as_inner());
-                while let Some(next) = cause {
-                    message = format!("{message}: {next}");
-                    cause = next.source();
-                }
-                let (span, note) = invalid
-                    .spans()
-                    .max_by_key(|(span, _)| span.to_range().map_or(0, |range| range.start))
-                    .map_or((None, String::new()), |(span, note)| {
-                        (span.to_range(), note.clone())
-                    });
-                let mut problem = Problem::new(place(start(span)), self.composer_text(&message))
-                    .with_source(written);
-                problem.hint = Some(self.composer_text(&note))
-                    .filter(|note| !note.is_empty() && !note.starts_with("naga::"));
-                problem
-            }
-            ComposerErrorInner::ImportNotFound(name, at) => {
-                self.unknown_module(name, place(*at), written)
-            }
-            ComposerErrorInner::ImportParseError(message, at) => {
-                Problem::new(place(*at), format!("this import can't be read: {message}"))
-                    .with_source(written)
-            }
-            ComposerErrorInner::NotEnoughEndIfs(at)
-            | ComposerErrorInner::TooManyEndIfs(at)
-            | ComposerErrorInner::ElseWithoutCondition(at)
-            | ComposerErrorInner::UnknownShaderDef { pos: at, .. }
-            | ComposerErrorInner::UnknownShaderDefOperator { pos: at, .. }
-            | ComposerErrorInner::InvalidShaderDefComparisonValue { pos: at, .. }
-            | ComposerErrorInner::DefineInModule(at) => {
-                Problem::new(place(*at), error.inner.to_string()).with_source(written)
-            }
-            ComposerErrorInner::InvalidIdentifier { original, at } => Problem::new(
-                place(start(at.to_range())),
-                format!("`{original}` can't be a name in a module"),
+/// The modules that a file imports, whatever the defines.
+fn imported<'a>(listing: &Listing, modules: &[&'a str]) -> Vec<&'a str> {
+    let imports = listing.imports.iter();
+    imports
+        .filter_map(|import| imports::module_of(&import.path, modules))
+        .collect()
+}
+
+/// Reads the files of the modules' folder.
+fn read_modules(files: &Files) -> Result<Vec<ModuleFile>, Problem> {
+    let mut modules: Vec<ModuleFile> = Vec::new();
+    let listed = files
+        .list(MODULES, "wgsl")
+        .map_err(|error| Problem::new(Place::file(MODULES), error.to_string()))?;
+    for entry in listed {
+        let text = read(files, &entry.path)?;
+        let Some((line, name)) = import_path(&text) else {
+            let first = if text.is_empty() { 0 } else { 1 };
+            return Err(Problem::new(
+                Place::new(entry.path.as_str(), first, first),
+                "the module has no name",
             )
-            .with_source(written)
-            .with_hint(
-                "names in shaders/lib must not end in a digit or an underscore, nor be WGSL words",
-            ),
-            other => Problem::new(Place::file(file), self.composer_text(&other.to_string())),
+            .with_source(&text)
+            .with_hint("add a line such as `#define_import_path lightbench::name`"));
+        };
+        if let Some(other) = modules.iter().find(|module| module.name == name) {
+            return Err(Problem::new(
+                Place::new(entry.path.as_str(), line, 1),
+                format!("`{}` calls itself `{name}` too", other.path),
+            )
+            .with_source(&text)
+            .with_hint("give one of the modules another name"));
         }
+        modules.push(ModuleFile {
+            name,
+            path: entry.path,
+            text,
+        });
     }
+    Ok(modules)
+}
 
-    /// A message without the composer's decorated names.
-    fn composer_text(&self, message: &str) -> String {
-        undecorate(message)
-    }
+/// Modules of which none can be added before the others.
+fn circle(waiting: &[(usize, Listing)], names: &[&str]) -> Problem {
+    let all: Vec<String> = waiting
+        .iter()
+        .map(|(index, _)| format!("`{}`", names[*index]))
+        .collect();
+    let (index, listing) = &waiting[0];
+    let import = listing.imports.iter().find(|import| {
+        let imported = imports::module_of(&import.path, names);
+        waiting
+            .iter()
+            .any(|(other, _)| Some(names[*other]) == imported)
+    });
+    let place = import.map_or_else(|| Place::file(listing.path.as_str()), |i| i.at.clone());
+    let message = match all.as_slice() {
+        [one] => format!("the module {one} imports itself"),
+        all => format!(
+            "the modules {} import each other in a circle",
+            all.join(" and ")
+        ),
+    };
+    Problem::new(place, message)
+        .with_source(&listing.text)
+        .with_hint(format!(
+            "move what both need into a third module, and let `{}` import that",
+            names[*index]
+        ))
+}
+
+/// A fault of the libraries that compose and check shaders.
+fn unexpected(path: &str, fault: &str) -> Problem {
+    tracing::error!("{path}: {fault}");
+    Problem::new(
+        Place::file(path),
+        "something in this shader is more than the program that reads it can do",
+    )
+    .with_hint("take back the last change; it may be an unusual one, or half of one")
 }
 
 /// Turns naga_oil's decorated names (`positionX_naga_oil_mod_XNRUWO…X`) into plain ones.
@@ -294,77 +362,37 @@ pub(crate) fn undecorate(message: &str) -> String {
     plain
 }
 
-/// The place in a file of a byte in the composer's version of it, in which lines are the same but
-/// names are decorated: the same word of the same line, counted from the line's beginning.
-fn written_place(file: &str, composed: &str, written: &str, byte: usize) -> Place {
-    let place = place_of(file, composed, byte);
-    let line = |text: &'_ str| {
-        text.lines()
-            .nth(place.line as usize - 1)
-            .unwrap_or("")
-            .to_owned()
-    };
-    let (composed, written) = (line(composed), line(written));
-    if composed == written {
-        return place;
+/// `vec3f` for `vec3<f32>`, as the shipped shaders write it.
+pub(crate) fn short_types(text: &str) -> String {
+    let mut short = text.to_owned();
+    for (long, letter) in [("f32", 'f'), ("i32", 'i'), ("u32", 'u'), ("f16", 'h')] {
+        for size in ["vec2", "vec3", "vec4"] {
+            short = short.replace(&format!("{size}<{long}>"), &format!("{size}{letter}"));
+        }
     }
-    let word = |c: char| c.is_alphanumeric() || c == '_';
-    let before: String = composed.chars().take(place.column as usize - 1).collect();
-    let token: String = composed
-        .chars()
-        .skip(place.column as usize - 1)
-        .take_while(|&c| word(c))
-        .collect();
-    let (before, token) = (undecorate(&before), undecorate(&token));
-    let words = |text: &str| -> Vec<usize> {
-        text.match_indices(token.as_str())
-            .filter(|(at, _)| {
-                !text[..*at].ends_with(word) && !text[*at + token.len()..].starts_with(word)
-            })
-            .map(|(at, _)| at)
-            .collect()
-    };
-    let column = if token.is_empty() {
-        before.chars().count().min(written.chars().count())
-    } else {
-        let at = words(&written).get(words(&before).len()).copied();
-        at.map_or(before.chars().count(), |at| written[..at].chars().count())
-    };
-    Place::new(file, place.line, column as u32 + 1)
-}
-
-/// Line and column of a byte.
-pub(crate) fn place_of(file: &str, text: &str, byte: usize) -> Place {
-    let byte = (0..=byte.min(text.len()))
-        .rev()
-        .find(|&b| text.is_char_boundary(b))
-        .unwrap_or(0);
-    let before = &text[..byte];
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    Place::new(file, line as u32, column as u32)
+    for columns in 2..=4 {
+        for rows in 2..=4 {
+            let name = format!("mat{columns}x{rows}");
+            short = short.replace(&format!("{name}<f32>"), &format!("{name}f"));
+        }
+    }
+    short
 }
 
 fn read(files: &Files, path: &str) -> Result<String, Problem> {
-    files
+    let text = files
         .read_text(path)
-        .map_err(|error| Problem::new(Place::file(path), error.to_string()))
+        .map_err(|error| Problem::new(Place::file(path), error.to_string()))?;
+    Ok(with_plain_line_ends(&text))
 }
 
-/// The module name that a file gives itself.
-fn import_path(text: &str) -> Option<String> {
-    text.lines()
-        .find_map(|line| line.trim().strip_prefix("#define_import_path"))
-        .map(|name| name.trim().to_owned())
-}
-
-/// Whether a file imports the module.
-fn imports(text: &str, module: &str) -> bool {
-    text.lines()
-        .filter_map(|line| line.trim().strip_prefix("#import"))
-        .any(|rest| {
-            let name = rest.trim();
-            name.strip_prefix(module)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', ':', '{', ';']))
-        })
+/// The module name that a file gives itself, and in which line.
+fn import_path(text: &str) -> Option<(u32, String)> {
+    let named = |line: &str| {
+        let name = line.trim().strip_prefix("#define_import_path")?.trim();
+        (!name.is_empty()).then(|| name.to_owned())
+    };
+    (1..)
+        .zip(text.lines())
+        .find_map(|(number, line)| Some((number, named(line)?)))
 }

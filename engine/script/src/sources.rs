@@ -116,6 +116,14 @@ impl Sources {
             .collect()
     }
 
+    /// How many arguments a function takes, in whichever file it is.
+    pub(crate) fn arguments_of(&self, name: &str) -> Option<String> {
+        let files = self.lock();
+        let mut functions = files.values().flat_map(|source| &source.functions);
+        let function = functions.find(|function| function.name == name)?;
+        Some(crate::errors::arguments(function.arguments))
+    }
+
     /// The paths of all files.
     pub(crate) fn paths(&self) -> Vec<String> {
         self.lock().keys().cloned().collect()

@@ -4,7 +4,8 @@ use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
 use super::state::{Channels, DrawPipeline, State, VertexStreams, blend};
-use super::{Compiler, PassLayout};
+use super::{Compiler, LoadedShader, PassLayout, refusal};
+use crate::binding::link;
 use crate::description::{PassDesc, PipelineDesc, ShaderDesc};
 use crate::problem::Problem;
 use crate::reflection::{FRAGMENT_ENTRY, VERTEX_ENTRY};
@@ -47,6 +48,11 @@ impl Compiler {
             }
         };
 
+        link(
+            pass,
+            vertex.reflected(),
+            fragment.map(LoadedShader::reflected),
+        )?;
         let streams = VertexStreams::of(&vertex.reflection);
         let colors = color_states(desc, pass, state.channels);
         let depth_stencil = depth_state(desc, pass, state);
@@ -105,10 +111,7 @@ impl Compiler {
             .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
             .map_err(|error| {
                 let at = pass.shader.as_ref().map_or(&pass.at, |shader| &shader.at);
-                Problem::new(
-                    at.clone(),
-                    format!("the pass `{}` can't be built: {error}", pass.name),
-                )
+                Problem::new(at.clone(), refusal(&error))
             })?;
         self.built.insert(key, &pipeline);
         Ok(DrawPipeline {

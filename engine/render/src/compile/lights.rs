@@ -113,6 +113,7 @@ impl Compiler {
             path: MARK_SHADER.to_owned(),
             at: pass.at.clone(),
             defines: Vec::new(),
+            define_places: Vec::new(),
         };
         self.build(files, desc, pass, Some(&shader), layout, state)
     }

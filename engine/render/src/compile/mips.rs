@@ -2,7 +2,8 @@
 
 use lightbench_assets::files::Files;
 
-use super::{Compiler, FULLSCREEN_VERTEX};
+use super::{Compiler, FULLSCREEN_VERTEX, refusal};
+use crate::binding::{link, links_mips};
 use crate::description::{Define, PassDesc, PipelineDesc, Reduction};
 use crate::pipeline::PassPipelines;
 use crate::problem::Problem;
@@ -39,6 +40,8 @@ impl Compiler {
         self.load(files, MIPS_SHADER, &[], &defines)?;
         let vertex = &self.shaders[&(FULLSCREEN_VERTEX.to_owned(), Vec::new(), Vec::new())];
         let fragment = &self.shaders[&(MIPS_SHADER.to_owned(), Vec::new(), defines.to_vec())];
+        links_mips(MIPS_SHADER, &fragment.reflection, kind)?;
+        link(pass, vertex.reflected(), None)?;
         let sample_type = match kind {
             SampleKind::Uint => wgpu::TextureSampleType::Uint,
             SampleKind::Sint => wgpu::TextureSampleType::Sint,
@@ -92,12 +95,7 @@ impl Compiler {
         let pipeline = self
             .gpu
             .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
-            .map_err(|error| {
-                Problem::new(
-                    pass.at.clone(),
-                    format!("the pass `{}` can't be built: {error}", pass.name),
-                )
-            })?;
+            .map_err(|error| Problem::new(pass.at.clone(), refusal(&error)))?;
         Ok(PassPipelines::Mips {
             pipeline,
             layout,

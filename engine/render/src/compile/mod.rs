@@ -16,15 +16,15 @@ use std::collections::HashMap;
 
 use lightbench_assets::files::Files;
 
-use crate::binding::{bind, target_layout};
-use crate::description::{Define, PassDesc, PassKind, PipelineDesc};
+use crate::binding::{Reflected, Source, bind, check_shader, target_layout};
+use crate::description::{Define, PassDesc, PassKind, PipelineDesc, ShaderDesc};
 use crate::fallback::settle_formats;
 use crate::gpu::Gpu;
 use crate::layout::SceneLayout;
 use crate::parameters::ParameterBlock;
 use crate::pipeline::{CompiledPass, PassPipelines, Pipeline};
-use crate::problem::{Problem, Problems};
-use crate::reflection::{Reflection, reflect};
+use crate::problem::{Problem, Problems, nearest};
+use crate::reflection::{ParameterMember, Reflection, reflect};
 use crate::shader::{Shader, ShaderComposer};
 use crate::validate::validate;
 use cache::PipelineCache;
@@ -43,6 +43,12 @@ struct LoadedShader {
     module: wgpu::ShaderModule,
     /// Differs where the text of the shader, of a module or a define differs.
     fingerprint: u64,
+}
+
+impl LoadedShader {
+    fn reflected(&self) -> Reflected<'_> {
+        (&self.shader, &self.reflection)
+    }
 }
 
 /// A pipeline layout, and what tells it from others.
@@ -95,14 +101,18 @@ impl Compiler {
         let mut desc = declared.clone();
         let notes = settle_formats(&mut desc, &self.gpu);
         let desc = &desc;
-        validate(desc, &self.gpu)?;
-        self.built.begin();
         let mut problems = Vec::new();
         let mut passes = Vec::new();
-        for pass in &desc.passes {
-            match self.pass(files, desc, pass) {
-                Ok(compiled) => passes.push(compiled),
-                Err(found) => problems.extend(found),
+        if let Err(found) = validate(desc, &self.gpu) {
+            problems = found.0;
+            problems.extend(self.shader_problems(files, desc));
+        } else {
+            self.built.begin();
+            for pass in &desc.passes {
+                match self.pass(files, desc, pass) {
+                    Ok(compiled) => passes.push(compiled),
+                    Err(found) => problems.extend(found),
+                }
             }
         }
         // Passes that share a shader share its mistakes.
@@ -116,8 +126,23 @@ impl Compiler {
         if problems.is_empty() {
             Ok(Pipeline::new(declared.clone(), desc.clone(), notes, passes))
         } else {
-            Err(Problems(problems))
+            Err(Problems(problems).with_sources(files))
         }
+    }
+
+    /// The first mistake of each shader by itself, for a description that has mistakes too.
+    fn shader_problems(&mut self, files: &Files, desc: &PipelineDesc) -> Vec<Problem> {
+        let shaders = desc.passes.iter().filter_map(|pass| pass.shader.as_ref());
+        shaders
+            .filter_map(|shader| {
+                let known = shader_file(files, shader);
+                let loaded = known.and_then(|()| {
+                    self.load(files, &shader.path, &[], &shader.defines)
+                        .map(|_| ())
+                });
+                loaded.err()
+            })
+            .collect()
     }
 
     /// Composes a shader unless it is known already.
@@ -145,10 +170,9 @@ impl Compiler {
     ) -> Result<LoadedShader, Problem> {
         let composer = match &mut self.composer {
             Some(composer) => composer,
-            None => self.composer.insert(ShaderComposer::new(
-                files,
-                naga::valid::Capabilities::default(),
-            )?),
+            None => self
+                .composer
+                .insert(ShaderComposer::new(files, self.gpu.capabilities())?),
         };
         let defines: Vec<Define> = variant
             .iter()
@@ -156,7 +180,8 @@ impl Compiler {
             .chain(defines.iter().cloned())
             .collect();
         let shader = composer.compose(files, path, &defines)?;
-        let reflection = reflect(&shader.module);
+        let reflection = reflect(&shader);
+        check_shader(&reflection, &self.gpu.device.limits())?;
         let fingerprint = composer.fingerprint(&shader.text, &defines);
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
         let module = self
@@ -170,10 +195,8 @@ impl Compiler {
                     })
             })
             .map_err(|error| {
-                Problem::new(
-                    crate::Place::file(path),
-                    format!("the driver refuses the shader: {error}"),
-                )
+                Problem::new(crate::Place::file(path), refusal(&error))
+                    .with_hint("another way to write the same may work")
             })?;
         Ok(LoadedShader {
             shader,
@@ -190,34 +213,17 @@ impl Compiler {
         pass: &PassDesc,
     ) -> Result<CompiledPass, Vec<Problem>> {
         let one = |problem: Problem| vec![problem];
-        // The shader's file may be missing: that is a mistake in the pipeline, not in the shader.
-        let shader = pass.shader.as_ref();
-        if let Some(shader) = shader
-            && !files.exists(&shader.path)
-        {
-            let known = files.list("shaders", "wgsl").unwrap_or_default();
-            let mut problem = Problem::new(
-                shader.at.clone(),
-                format!("there is no shader `{}`", shader.path),
-            );
-            problem.hint = crate::problem::suggestion(
-                &shader.path,
-                known.iter().map(|entry| entry.path.as_str()),
-            );
-            return Err(one(problem));
-        }
-
         let mut sources = Vec::new();
         let mut parameters = None;
-        if let Some(shader) = shader {
-            let loaded = self
-                .load(files, &shader.path, &[], &shader.defines)
-                .map_err(one)?;
-            sources = bind(desc, pass, &loaded.shader, &loaded.reflection)?;
-            parameters = loaded.reflection.parameters.clone();
+        if let Some(shader) = &pass.shader {
+            shader_file(files, shader).map_err(one)?;
+            (sources, parameters) = self.bind(files, desc, pass, shader)?;
         }
 
-        let target_layout = target_layout(&self.gpu, &sources, desc, pass);
+        let target_layout = self
+            .gpu
+            .guarded(|| target_layout(&self.gpu, &sources, desc, pass))
+            .map_err(|error| one(Problem::new(pass.at.clone(), refusal(&error))))?;
         let formats: Vec<_> = pass
             .reads
             .iter()
@@ -262,4 +268,83 @@ impl Compiler {
             parameters,
         ))
     }
+
+    /// Finds what the variables of a pass's shader stand for, in all variants of it that the pass
+    /// may draw with.
+    fn bind(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        shader: &ShaderDesc,
+    ) -> Result<Bound, Vec<Problem>> {
+        let variants: &[&[&'static str]] = match pass.kind {
+            PassKind::Geometry(_) => &[&[], &["ALPHA_TEST"]],
+            _ => &[&[]],
+        };
+        let mut first: Option<Bound> = None;
+        for variant in variants {
+            let gpu = self.gpu.clone();
+            let loaded = self
+                .load(files, &shader.path, variant, &shader.defines)
+                .map_err(|problem| vec![problem])?;
+            let (shader, reflection) = (&loaded.shader, &loaded.reflection);
+            let sources = bind(desc, pass, shader, reflection, &gpu)?;
+            let bound = (sources, reflection.parameters.clone());
+            match &first {
+                None => first = Some(bound),
+                Some(first) if *first == bound => {}
+                Some(_) => return Err(vec![other_variant(pass, reflection)]),
+            }
+        }
+        Ok(first.unwrap_or_default())
+    }
+}
+
+/// What group 1 of a pass holds, and the members and size of its parameters.
+type Bound = (Vec<(u32, Source)>, Option<(Vec<ParameterMember>, u32)>);
+
+/// The shader's file may be missing: that is a mistake in the pipeline, not in the shader.
+fn shader_file(files: &Files, shader: &ShaderDesc) -> Result<(), Problem> {
+    if files.exists(&shader.path) {
+        return Ok(());
+    }
+    let known = files.list("shaders", "wgsl").unwrap_or_default();
+    let known = || known.iter().map(|entry| entry.path.as_str());
+    let path = shader.path.as_str();
+    let name = |path: &'_ str| path.rsplit('/').next().unwrap_or(path).replace(".wgsl", "");
+    // Files of one folder have long paths that are nearly the same: only their names are compared.
+    let wanted = name(path);
+    let names: Vec<String> = known().map(name).collect();
+    let near = nearest(&wanted, names.iter().map(String::as_str));
+    let near = near.and_then(|near| known().find(|path| name(path) == near));
+    let hint = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "write the file, or name one of `lightbench list files`".to_owned(),
+    };
+    Err(Problem::new(shader.at.clone(), format!("there is no shader `{path}`")).with_hint(hint))
+}
+
+/// The variant for materials with holes asks for other things than the one for all others.
+fn other_variant(pass: &PassDesc, reflection: &Reflection) -> Problem {
+    // What the first variant of the shader has in its place was given by the pass.
+    let mut variables = reflection.variables.iter().filter(|v| v.group > 0);
+    let known = |name: &String| {
+        pass.reads.iter().any(|read| read.variable == *name)
+            || pass.updates.iter().any(|update| update.variable == *name)
+    };
+    let found = variables.clone().find(|v| !known(&v.name));
+    let found = found.or_else(|| variables.next());
+    let place = found.map_or_else(|| pass.at.clone(), |variable| variable.at.clone());
+    Problem::new(
+        place,
+        "this shader asks for one thing with ALPHA_TEST and for another without",
+    )
+    .with_hint("declare variables of groups 1 and 2 outside of `#ifdef ALPHA_TEST`")
+}
+
+/// A refusal of the device that nobody foresaw. Its words are for those who mend the program.
+fn refusal(error: &str) -> String {
+    tracing::error!("{error}");
+    "the device refuses this, and the program can't tell why".to_owned()
 }

@@ -64,6 +64,7 @@ fn set(open: Open, path: String) -> Result<(), Mistake> {
         path,
         at: open.at,
         defines: Vec::new(),
+        define_places: Vec::new(),
     });
     Ok(())
 }
@@ -80,5 +81,6 @@ fn define(open: Open, define: Define) -> Result<(), Mistake> {
         )));
     }
     shader.defines.push(define);
+    shader.define_places.push(open.at);
     Ok(())
 }
