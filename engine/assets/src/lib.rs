@@ -56,6 +56,7 @@ pub mod procedural;
 pub mod procedural_texture;
 mod progress;
 mod rows;
+mod smooth_groups;
 mod tangents;
 mod texture;
 pub mod watch;

@@ -15,7 +15,7 @@ pub use entry::{EntryPoint, NumberType, Varying};
 pub use variable::{BindingKind, ParameterMember, Variable};
 
 /// The kind of numbers in a texture or a fragment output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SampleKind {
     /// Floats and normalised integers.
     Float,
@@ -152,6 +152,48 @@ impl Reflection {
     pub fn variable(&self, group: u32, binding: u32) -> Option<&Variable> {
         let mut variables = self.variables.iter();
         variables.find(|variable| (variable.group, variable.binding) == (group, binding))
+    }
+
+    /// Adds what another variant of the same shader asks for beyond this one.
+    ///
+    /// # Errors
+    /// A variable of the other variant that is bound where this one binds something else.
+    pub fn add_variant(&mut self, other: &Self) -> Result<(), Place> {
+        for theirs in &other.variables {
+            let at = (theirs.group, theirs.binding);
+            let mut own = self.variables.iter_mut();
+            match own.find(|own| (own.group, own.binding) == at) {
+                None => self.variables.push(theirs.clone()),
+                Some(own) if (&own.name, &own.kind) == (&theirs.name, &theirs.kind) => {
+                    own.bytes = own.bytes.max(theirs.bytes);
+                }
+                Some(_) => return Err(theirs.at.clone()),
+            }
+        }
+        self.variables
+            .sort_by_key(|variable| (variable.group, variable.binding));
+        match (&self.parameters, &other.parameters) {
+            (None, theirs) => self.parameters = theirs.clone(),
+            (Some((own, size)), Some((theirs, other_size))) => {
+                let alike = |(own, theirs): (&ParameterMember, &ParameterMember)| {
+                    (&own.name, own.offset, own.kind) == (&theirs.name, theirs.offset, theirs.kind)
+                };
+                let mut pairs = own.iter().zip(theirs);
+                if own.len() != theirs.len() || size != other_size || !pairs.all(alike) {
+                    let different = theirs.iter().zip(own).find(|(a, b)| !alike((b, a)));
+                    let place = different.map(|(theirs, _)| theirs).or(theirs.last());
+                    return Err(place.map(|member| member.at.clone()).unwrap_or_default());
+                }
+            }
+            (Some(_), None) => {}
+        }
+        for theirs in &other.entry_points {
+            let mut own = self.entry_points.iter_mut();
+            if let Some(own) = own.find(|own| own.stage == theirs.stage) {
+                own.samples.extend(&theirs.samples);
+            }
+        }
+        Ok(())
     }
 
     /// What the pipeline provides: targets, buffers and samplers.

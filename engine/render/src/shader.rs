@@ -5,10 +5,12 @@ mod declarations;
 mod explain;
 mod imports;
 mod listing;
+mod modules;
 mod syntax;
 mod tokens;
 mod validity;
 
+use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use lightbench_assets::files::Files;
@@ -23,9 +25,11 @@ use crate::guard;
 use crate::problem::{Place, Problem};
 use explain::Explainer;
 use listing::Defines;
+use modules::{ModuleFile, check_imported, circle, read, read_modules};
 
 pub use declarations::Listings;
 pub use listing::Listing;
+pub use modules::MODULES;
 pub(crate) use listing::with_plain_line_ends;
 
 /// A shader that parsed and validated, before any pipeline is built from it.
@@ -41,18 +45,11 @@ pub struct Shader {
     pub info: ModuleInfo,
     /// The files that it was composed from, to find where its names are declared.
     pub listings: Listings,
-}
-
-/// The folder of modules that shaders import.
-const MODULES: &str = "shaders/lib";
-
-/// A file of the modules' folder.
-struct ModuleFile {
-    /// What shaders import it by, as in `lightbench::scene`.
-    name: String,
-    path: String,
-    /// The text as it was written; the composer rewrites names in it.
-    text: String,
+    /// Paths of the modules that it imports, and of those that they import.
+    pub modules: Vec<String>,
+    /// A number for the text, the defines and all those modules: where anything of it differs, so
+    /// does the number.
+    pub fingerprint: u64,
 }
 
 /// Composes shaders from files and remembers the modules that they import.
@@ -60,76 +57,93 @@ pub struct ShaderComposer {
     composer: Composer,
     capabilities: Capabilities,
     modules: Vec<ModuleFile>,
+    /// Paths of the modules that the composer has taken in: those that some shader asked for.
+    added: BTreeSet<String>,
 }
 
 impl ShaderComposer {
-    /// Reads every module in `shaders/lib`. `capabilities` say which optional parts of WGSL are
-    /// allowed.
+    /// Reads every module in `shaders/lib`, and checks none: a mistake in a module concerns those
+    /// shaders alone that import it. `capabilities` say which optional parts of WGSL are allowed.
     ///
     /// # Errors
-    /// The first mistake in a module, with its place.
+    /// A folder or file that can't be read.
     pub fn new(files: &Files, capabilities: Capabilities) -> Result<Self, Problem> {
-        let modules = read_modules(files)?;
-        let mut this = Self {
+        Ok(Self {
             composer: Composer::default().with_capabilities(capabilities),
             capabilities,
-            modules,
-        };
-        this.add_modules()?;
-        Ok(this)
+            modules: read_modules(files)?,
+            added: BTreeSet::new(),
+        })
     }
 
-    /// Adds the modules in an order in which each finds what it imports.
-    fn add_modules(&mut self) -> Result<(), Problem> {
-        let mut waiting = Vec::new();
-        for (index, module) in self.modules.iter().enumerate() {
-            let listing = Listing::outline(&module.path, &module.text)?;
-            imports::check_names(&listing, &self.names())?;
-            waiting.push((index, listing));
-        }
+    /// Takes in the modules of a shader, each after those that it imports itself.
+    fn add_modules(&mut self, listings: &Listings) -> Result<(), Problem> {
+        let is_new = |listing: &Listing| !self.added.contains(&listing.path);
+        let mut waiting: Vec<(&str, &Listing)> = listings
+            .modules()
+            .filter(|(_, listing)| is_new(listing))
+            .collect();
+        let names: Vec<&str> = listings.modules().map(|(name, _)| name).collect();
         while !waiting.is_empty() {
-            let names: Vec<&str> = self.names();
             let waits = |listing: &Listing| {
                 listing.imports.iter().any(|import| {
                     let imported = imports::module_of(&import.path, &names);
                     let mut others = waiting.iter();
-                    others.any(|(other, _)| Some(names[*other]) == imported)
+                    others.any(|(other, _)| Some(*other) == imported)
                 })
             };
             let Some(ready) = waiting.iter().position(|(_, listing)| !waits(listing)) else {
                 return Err(circle(&waiting, &names));
             };
-            let (index, listing) = waiting.swap_remove(ready);
-            let module = &self.modules[index];
+            let (_, listing) = waiting.remove(ready);
             let descriptor = ComposableModuleDescriptor {
-                source: &module.text,
-                file_path: &module.path,
+                source: &listing.text,
+                file_path: &listing.path,
                 ..Default::default()
             };
             let composer = &mut self.composer;
             let added = guard::catch(|| composer.add_composable_module(descriptor).map(|_| ()));
-            let added = added.map_err(|fault| unexpected(&module.path, &fault))?;
-            if let Err(error) = added {
-                let listings = Listings::new(listing, Vec::new());
-                return Err(self.explain(&error, &listings, None));
-            }
+            match added {
+                Ok(Ok(())) => self.added.insert(listing.path.clone()),
+                Ok(Err(error)) => return Err(self.explain(&error, listings, None)),
+                Err(fault) => {
+                    self.begin_again();
+                    return Err(unexpected(&listing.path, &fault));
+                }
+            };
         }
         Ok(())
     }
 
+    /// Forgets a composer that stopped in the middle of something.
+    fn begin_again(&mut self) {
+        self.composer = Composer::default().with_capabilities(self.capabilities);
+        self.added.clear();
+    }
+
     /// The names of all modules.
     fn names(&self) -> Vec<&str> {
-        self.modules
-            .iter()
-            .map(|module| module.name.as_str())
-            .collect()
+        let modules = self.modules.iter();
+        modules.filter_map(|module| module.name.as_deref()).collect()
+    }
+
+    /// The file of the module of that name.
+    fn named(&self, name: &str) -> Option<&ModuleFile> {
+        let mut modules = self.modules.iter();
+        modules.find(|module| module.name.as_deref() == Some(name))
     }
 
     /// A listing of a module.
     fn list_module(&self, module: &ModuleFile, defines: &Defines) -> Result<Listing, Problem> {
         let listing = Listing::new(&module.path, &module.text, defines, true)?;
-        imports::check_names(&listing, &self.names())?;
+        self.check_names(&listing)?;
         Ok(listing)
+    }
+
+    /// Every module that a file imports is there.
+    fn check_names(&self, listing: &Listing) -> Result<(), Problem> {
+        check_imported(listing, &self.modules)?;
+        imports::check_names(listing, &self.names())
     }
 
     /// Composes and validates the shader in `path` with `defines` set.
@@ -148,6 +162,7 @@ impl ShaderComposer {
                 .with_hint("an editor may be half-way through saving it; save it again"));
         }
         let listings = self.list(path, &text, defines)?;
+        self.add_modules(&listings)?;
         let composed = self.make(path, &text, defines, true)?;
         let module = match composed {
             Ok(module) => module,
@@ -166,8 +181,11 @@ impl ShaderComposer {
         let info = guard::catch(|| validator.validate(&module))
             .map_err(|fault| unexpected(path, &fault))?
             .map_err(|error| unexpected(path, &error.as_inner().to_string()))?;
+        let modules = listings.modules().map(|(_, module)| module.path.clone());
         Ok(Shader {
             path: path.to_owned(),
+            modules: modules.collect(),
+            fingerprint: fingerprint(&listings, defines),
             text,
             module,
             info,
@@ -183,7 +201,7 @@ impl ShaderComposer {
             .map(|define| (define.name.clone(), define.value))
             .collect();
         let shader = Listing::new(path, text, &values, false)?;
-        imports::check_names(&shader, &names)?;
+        self.check_names(&shader)?;
         values.extend(shader.defines.clone());
         let mut wanted: Vec<&str> = imported(&shader, &names);
         let mut modules: Vec<(String, Listing)> = Vec::new();
@@ -191,7 +209,7 @@ impl ShaderComposer {
             if modules.iter().any(|(known, _)| known == name) {
                 continue;
             }
-            let Some(module) = self.modules.iter().find(|module| module.name == name) else {
+            let Some(module) = self.named(name) else {
                 continue;
             };
             let listing = self.list_module(module, &values)?;
@@ -229,23 +247,10 @@ impl ShaderComposer {
         match made {
             Ok(made) => Ok(made),
             Err(fault) => {
-                // What the composer was in the middle of is lost.
-                self.composer = Composer::default().with_capabilities(self.capabilities);
-                self.add_modules()?;
+                self.begin_again();
                 Err(unexpected(path, &fault))
             }
         }
-    }
-
-    /// A number for a shader's text with its defines and all modules: where anything of it differs,
-    /// so does the number.
-    pub fn fingerprint(&self, text: &str, defines: &[Define]) -> u64 {
-        let mut hasher = DefaultHasher::new();
-        (text, defines).hash(&mut hasher);
-        for module in &self.modules {
-            (&module.path, &module.text).hash(&mut hasher);
-        }
-        hasher.finish()
     }
 
     fn explain(
@@ -272,67 +277,14 @@ fn imported<'a>(listing: &Listing, modules: &[&'a str]) -> Vec<&'a str> {
         .collect()
 }
 
-/// Reads the files of the modules' folder.
-fn read_modules(files: &Files) -> Result<Vec<ModuleFile>, Problem> {
-    let mut modules: Vec<ModuleFile> = Vec::new();
-    let listed = files
-        .list(MODULES, "wgsl")
-        .map_err(|error| Problem::new(Place::file(MODULES), error.to_string()))?;
-    for entry in listed {
-        let text = read(files, &entry.path)?;
-        let Some((line, name)) = import_path(&text) else {
-            let first = if text.is_empty() { 0 } else { 1 };
-            return Err(Problem::new(
-                Place::new(entry.path.as_str(), first, first),
-                "the module has no name",
-            )
-            .with_source(&text)
-            .with_hint("add a line such as `#define_import_path lightbench::name`"));
-        };
-        if let Some(other) = modules.iter().find(|module| module.name == name) {
-            return Err(Problem::new(
-                Place::new(entry.path.as_str(), line, 1),
-                format!("`{}` calls itself `{name}` too", other.path),
-            )
-            .with_source(&text)
-            .with_hint("give one of the modules another name"));
-        }
-        modules.push(ModuleFile {
-            name,
-            path: entry.path,
-            text,
-        });
+/// A number for a shader's files with its defines.
+fn fingerprint(listings: &Listings, defines: &[Define]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    defines.hash(&mut hasher);
+    for listing in listings.all() {
+        (&listing.path, &listing.text).hash(&mut hasher);
     }
-    Ok(modules)
-}
-
-/// Modules of which none can be added before the others.
-fn circle(waiting: &[(usize, Listing)], names: &[&str]) -> Problem {
-    let all: Vec<String> = waiting
-        .iter()
-        .map(|(index, _)| format!("`{}`", names[*index]))
-        .collect();
-    let (index, listing) = &waiting[0];
-    let import = listing.imports.iter().find(|import| {
-        let imported = imports::module_of(&import.path, names);
-        waiting
-            .iter()
-            .any(|(other, _)| Some(names[*other]) == imported)
-    });
-    let place = import.map_or_else(|| Place::file(listing.path.as_str()), |i| i.at.clone());
-    let message = match all.as_slice() {
-        [one] => format!("the module {one} imports itself"),
-        all => format!(
-            "the modules {} import each other in a circle",
-            all.join(" and ")
-        ),
-    };
-    Problem::new(place, message)
-        .with_source(&listing.text)
-        .with_hint(format!(
-            "move what both need into a third module, and let `{}` import that",
-            names[*index]
-        ))
+    hasher.finish()
 }
 
 /// A fault of the libraries that compose and check shaders.
@@ -377,22 +329,4 @@ pub(crate) fn short_types(text: &str) -> String {
         }
     }
     short
-}
-
-fn read(files: &Files, path: &str) -> Result<String, Problem> {
-    let text = files
-        .read_text(path)
-        .map_err(|error| Problem::new(Place::file(path), error.to_string()))?;
-    Ok(with_plain_line_ends(&text))
-}
-
-/// The module name that a file gives itself, and in which line.
-fn import_path(text: &str) -> Option<(u32, String)> {
-    let named = |line: &str| {
-        let name = line.trim().strip_prefix("#define_import_path")?.trim();
-        (!name.is_empty()).then(|| name.to_owned())
-    };
-    (1..)
-        .zip(text.lines())
-        .find_map(|(number, line)| Some((number, named(line)?)))
 }

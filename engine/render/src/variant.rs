@@ -42,6 +42,12 @@ impl Variant {
         self.0 & Self::ALPHA_TEST != 0
     }
 
+    /// The same in a view that swaps left and right.
+    #[must_use]
+    pub fn turned(self) -> Self {
+        Self(self.0 ^ Self::MIRRORED)
+    }
+
     /// Front faces wind clockwise.
     pub fn mirrored(self) -> bool {
         self.0 & Self::MIRRORED != 0
@@ -54,5 +60,59 @@ impl Variant {
         } else {
             &[]
         }
+    }
+}
+
+/// A set of variants.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Variants(u8);
+
+impl Variants {
+    /// All of them.
+    pub const ALL: Self = Self(u8::MAX);
+
+    /// Whether a variant is in the set.
+    pub fn contains(self, variant: Variant) -> bool {
+        self.0 & (1 << variant.index()) != 0
+    }
+
+    /// Puts a variant into the set.
+    pub fn insert(&mut self, variant: Variant) {
+        self.0 |= 1 << variant.index();
+    }
+
+    /// Those in either of the sets.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those that the other set does not have.
+    #[must_use]
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_hold_what_was_put_into_them() {
+        let cloth = Variant::new(true, true, false);
+        let mirror = Variant::new(false, false, true);
+        let mut set = Variants::default();
+        assert!(set.is_empty());
+        set.insert(cloth);
+        assert!(set.contains(cloth) && !set.contains(mirror));
+        assert!(Variant::all().all(|variant| Variants::ALL.contains(variant)));
+        assert!(!Variants::ALL.without(set).contains(cloth));
+        assert_eq!(Variants::ALL.without(set).or(set), Variants::ALL);
     }
 }

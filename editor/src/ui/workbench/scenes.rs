@@ -158,11 +158,16 @@ impl Scenes {
 
     /// Loads again if one of these files is part of the scene. Returns whether it is.
     pub fn changed(&mut self, paths: &[String]) -> bool {
+        let loading = self.loading.as_ref().map(|loading| &loading.reads);
+        let loading = loading.map(|reads| reads.lock().unwrap_or_else(PoisonError::into_inner));
         let hit = paths.iter().any(|path| {
             self.reads.contains(path)
+                // What a load has read by now may be older than the save.
+                || loading.as_ref().is_some_and(|reads| reads.contains(path))
                 // Whatever is broken may wait for a file that was not there.
                 || self.problems.is_some() && !path.starts_with("shaders/")
         });
+        drop(loading);
         self.wanted |= hit;
         hit
     }

@@ -19,14 +19,14 @@ const SAMPLERS: [(&str, Source); 3] = [
 
 /// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
 /// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 3] = [
+const ENGINE_BUFFERS: [(&str, EngineBuffer); 6] = [
     ("mesh_positions", EngineBuffer::MeshPositions),
     ("mesh_attributes", EngineBuffer::MeshAttributes),
+    ("mesh_groups", EngineBuffer::MeshGroups),
     ("mesh_indices", EngineBuffer::MeshIndices),
+    ("shadow_views", EngineBuffer::ShadowViews),
+    ("light_shadows", EngineBuffer::LightShadows),
 ];
-
-/// Bytes that each of the engine's buffers has in every scene: those of its unit shapes are more.
-const ENGINE_BYTES: u64 = 64;
 
 impl<S: FormatSupport> Binder<'_, S> {
     /// Where the resource of each binding comes from.
@@ -320,11 +320,11 @@ impl<S: FormatSupport> Binder<'_, S> {
                 );
                 return None;
             }
-            if variable.bytes > ENGINE_BYTES {
+            if variable.bytes > buffer.least_bytes() {
                 self.report(
                     &variable.at,
                     format!("`{name}` has as many elements as the scene needs"),
-                    "declare it as an array without a length, as in `array<f32>`",
+                    format!("declare it as `{}`, without a length", buffer.in_wgsl()),
                 );
                 return None;
             }

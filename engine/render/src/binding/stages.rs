@@ -3,7 +3,7 @@
 use naga::ShaderStage;
 
 use super::Binder;
-use crate::description::{BlendFactor, ColorAttachment, ParameterKind, PassKind, TargetDesc};
+use crate::description::{BlendFactor, ColorAttachment, Geometry, ParameterKind, PassKind, TargetDesc};
 use crate::problem::{Place, suggestion};
 use crate::reflection::{
     BindingKind, COMPUTE_ENTRY, EntryPoint, FRAGMENT_ENTRY, NumberType, SampleKind, VERTEX_ENTRY,
@@ -141,6 +141,11 @@ impl<S: FormatSupport> Binder<'_, S> {
                     );
                 }
             }
+            // What such a pass needs is told when it is built.
+            PassKind::Geometry(Geometry {
+                pull_vertices: true,
+                ..
+            }) => {}
             _ => entry
                 .inputs
                 .iter()

@@ -2,10 +2,11 @@
 
 use lightbench_assets::files::Files;
 
+use super::cache::PipelineKey;
 use super::{Compiler, FULLSCREEN_VERTEX, refusal};
 use crate::binding::{link, links_mips};
 use crate::description::{Define, PassDesc, PipelineDesc, Reduction};
-use crate::pipeline::PassPipelines;
+use crate::gpu_pipelines::{DrawPipeline, PassPipelines};
 use crate::problem::Problem;
 use crate::reflection::{FRAGMENT_ENTRY, SampleKind, VERTEX_ENTRY};
 
@@ -63,6 +64,18 @@ impl Compiler {
                     count: None,
                 }],
             });
+        let key = PipelineKey {
+            vertex: vertex.shader.fingerprint,
+            fragment: Some(fragment.shader.fingerprint),
+            state: format!("mips {}", target.format),
+        };
+        if let Some(pipeline) = self.built.get(&key) {
+            return Ok(PassPipelines::Mips {
+                pipeline,
+                layout,
+                levels: Vec::new(),
+            });
+        }
         let pipeline_layout =
             self.gpu
                 .device
@@ -96,6 +109,8 @@ impl Compiler {
             .gpu
             .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
             .map_err(|error| Problem::new(pass.at.clone(), refusal(&error)))?;
+        let pipeline = DrawPipeline::new(pipeline, false);
+        self.built.insert(key, &pipeline);
         Ok(PassPipelines::Mips {
             pipeline,
             layout,

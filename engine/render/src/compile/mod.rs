@@ -10,26 +10,28 @@ mod fullscreen;
 mod geometry;
 mod lights;
 mod mips;
+mod shadow;
 mod state;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use lightbench_assets::files::Files;
 
 use crate::binding::{Reflected, Source, bind, check_shader, target_layout};
+use crate::compiled_pass::CompiledPass;
 use crate::description::{Define, PassDesc, PassKind, PipelineDesc, ShaderDesc};
 use crate::fallback::settle_formats;
 use crate::gpu::Gpu;
+use crate::gpu_pipelines::PassPipelines;
 use crate::layout::SceneLayout;
 use crate::parameters::ParameterBlock;
-use crate::pipeline::{CompiledPass, PassPipelines, Pipeline};
-use crate::problem::{Problem, Problems, nearest};
+use crate::pipeline::Pipeline;
+use crate::problem::{Place, Problem, Problems, nearest};
 use crate::reflection::{ParameterMember, Reflection, reflect};
-use crate::shader::{Shader, ShaderComposer};
+use crate::shader::{MODULES, Shader, ShaderComposer};
 use crate::validate::validate;
+use crate::variant::Variants;
 use cache::PipelineCache;
-
-pub use state::DrawPipeline;
 
 /// The vertex stages that passes use whose shader brings none.
 const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
@@ -41,8 +43,6 @@ struct LoadedShader {
     shader: Shader,
     reflection: Reflection,
     module: wgpu::ShaderModule,
-    /// Differs where the text of the shader, of a module or a define differs.
-    fingerprint: u64,
 }
 
 impl LoadedShader {
@@ -68,6 +68,10 @@ pub struct Compiler {
     /// Pipelines that were built, so that a save rebuilds only the passes that it touches, and
     /// going back to a text seen before rebuilds nothing.
     built: PipelineCache,
+    /// The variants of meshes that the compilation at hand is for.
+    variants: Variants,
+    /// The shaders and modules that it has used.
+    used: BTreeSet<String>,
 }
 
 impl Compiler {
@@ -79,24 +83,42 @@ impl Compiler {
             composer: None,
             shaders: HashMap::new(),
             built: PipelineCache::default(),
+            variants: Variants::ALL,
+            used: BTreeSet::new(),
         }
     }
 
-    /// Forgets shaders that depend on a changed file: that shader, or all after a module changed.
+    /// Forgets shaders that depend on a changed file: that shader, or those that import the module.
     pub fn forget(&mut self, changed: &str) {
-        if changed.starts_with("shaders/lib/") {
+        if changed.starts_with(MODULES) {
             self.composer = None;
-            self.shaders.clear();
-        } else {
-            self.shaders.retain(|(path, ..), _| path != changed);
         }
+        self.shaders.retain(|(path, ..), loaded| {
+            path != changed && !loaded.shader.modules.iter().any(|module| module == changed)
+        });
     }
 
-    /// Builds a pipeline.
+    /// Builds a pipeline that can draw every mesh.
     ///
     /// # Errors
     /// All mistakes of the description; else the first mistake of each shader.
     pub fn compile(&mut self, files: &Files, desc: &PipelineDesc) -> Result<Pipeline, Problems> {
+        self.compile_for(files, desc, Variants::ALL)
+    }
+
+    /// Builds a pipeline for those variants of meshes that a scene has. Others can be added later:
+    /// what was built before is kept.
+    ///
+    /// # Errors
+    /// As [`Compiler::compile`].
+    pub fn compile_for(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        variants: Variants,
+    ) -> Result<Pipeline, Problems> {
+        self.variants = variants;
+        self.used.clear();
         let declared = desc;
         let mut desc = declared.clone();
         let notes = settle_formats(&mut desc, &self.gpu);
@@ -124,7 +146,16 @@ impl Compiler {
             }
         });
         if problems.is_empty() {
-            Ok(Pipeline::new(declared.clone(), desc.clone(), notes, passes))
+            let mut files = std::mem::take(&mut self.used);
+            files.extend(desc.scripts.iter().cloned());
+            Ok(Pipeline::new(
+                declared.clone(),
+                desc.clone(),
+                notes,
+                passes,
+                variants,
+                files,
+            ))
         } else {
             Err(Problems(problems).with_sources(files))
         }
@@ -158,7 +189,10 @@ impl Compiler {
             let loaded = self.compose(files, path, variant, defines)?;
             self.shaders.insert(key.clone(), loaded);
         }
-        Ok(&self.shaders[&key])
+        let loaded = &self.shaders[&key];
+        self.used.insert(loaded.shader.path.clone());
+        self.used.extend(loaded.shader.modules.iter().cloned());
+        Ok(loaded)
     }
 
     fn compose(
@@ -182,7 +216,6 @@ impl Compiler {
         let shader = composer.compose(files, path, &defines)?;
         let reflection = reflect(&shader);
         check_shader(&reflection, &self.gpu.device.limits())?;
-        let fingerprint = composer.fingerprint(&shader.text, &defines);
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
         let module = self
             .gpu
@@ -195,14 +228,13 @@ impl Compiler {
                     })
             })
             .map_err(|error| {
-                Problem::new(crate::Place::file(path), refusal(&error))
+                Problem::new(Place::file(path), refusal(&error))
                     .with_hint("another way to write the same may work")
             })?;
         Ok(LoadedShader {
             shader,
             reflection,
             module,
-            fingerprint,
         })
     }
 
@@ -213,6 +245,7 @@ impl Compiler {
         pass: &PassDesc,
     ) -> Result<CompiledPass, Vec<Problem>> {
         let one = |problem: Problem| vec![problem];
+        let pass = &shadow::with_shader(pass);
         let mut sources = Vec::new();
         let mut parameters = None;
         if let Some(shader) = &pass.shader {
@@ -250,6 +283,7 @@ impl Compiler {
         let pipelines = match &pass.kind {
             PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, &layout),
             PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
+            PassKind::Shadow(shadow) => self.shadow(files, desc, pass, shadow, &layout),
             PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
             PassKind::Compute(_) => self.compute(files, pass, &layout),
             PassKind::Mips { target, reduction } => {
@@ -269,8 +303,8 @@ impl Compiler {
         ))
     }
 
-    /// Finds what the variables of a pass's shader stand for, in all variants of it that the pass
-    /// may draw with.
+    /// Finds what the variables of a pass's shader stand for. All variants of it that the pass may
+    /// draw with share one layout, which has what any of them asks for.
     fn bind(
         &mut self,
         files: &Files,
@@ -279,25 +313,42 @@ impl Compiler {
         shader: &ShaderDesc,
     ) -> Result<Bound, Vec<Problem>> {
         let variants: &[&[&'static str]] = match pass.kind {
-            PassKind::Geometry(_) => &[&[], &["ALPHA_TEST"]],
+            PassKind::Geometry(_) | PassKind::Shadow(_) => &[&[], &["ALPHA_TEST"]],
             _ => &[&[]],
         };
-        let mut first: Option<Bound> = None;
+        let mut all: Option<Reflection> = None;
         for variant in variants {
-            let gpu = self.gpu.clone();
             let loaded = self
                 .load(files, &shader.path, variant, &shader.defines)
                 .map_err(|problem| vec![problem])?;
-            let (shader, reflection) = (&loaded.shader, &loaded.reflection);
-            let sources = bind(desc, pass, shader, reflection, &gpu)?;
-            let bound = (sources, reflection.parameters.clone());
-            match &first {
-                None => first = Some(bound),
-                Some(first) if *first == bound => {}
-                Some(_) => return Err(vec![other_variant(pass, reflection)]),
+            match &mut all {
+                None => all = Some(loaded.reflection.clone()),
+                Some(all) => all
+                    .add_variant(&loaded.reflection)
+                    .map_err(|place| vec![other_variant(place)])?,
             }
         }
-        Ok(first.unwrap_or_default())
+        let mut all = all.unwrap_or_default();
+        let mut sources = Vec::new();
+        let gpu = self.gpu.clone();
+        for variant in variants {
+            let loaded = self
+                .load(files, &shader.path, variant, &shader.defines)
+                .map_err(|problem| vec![problem])?;
+            // Each has entry points of its own, for textures that any may filter.
+            let own = loaded.reflection.entry_points.iter();
+            let shared = std::mem::take(&mut all.entry_points);
+            all.entry_points = own
+                .map(|entry| {
+                    let mut entry = entry.clone();
+                    let same = shared.iter().filter(|other| other.stage == entry.stage);
+                    entry.samples.extend(same.flat_map(|other| &other.samples));
+                    entry
+                })
+                .collect();
+            sources = bind(desc, pass, &loaded.shader, &all, &gpu)?;
+        }
+        Ok((sources, all.parameters))
     }
 }
 
@@ -325,22 +376,15 @@ fn shader_file(files: &Files, shader: &ShaderDesc) -> Result<(), Problem> {
     Err(Problem::new(shader.at.clone(), format!("there is no shader `{path}`")).with_hint(hint))
 }
 
-/// The variant for materials with holes asks for other things than the one for all others.
-fn other_variant(pass: &PassDesc, reflection: &Reflection) -> Problem {
-    // What the first variant of the shader has in its place was given by the pass.
-    let mut variables = reflection.variables.iter().filter(|v| v.group > 0);
-    let known = |name: &String| {
-        pass.reads.iter().any(|read| read.variable == *name)
-            || pass.updates.iter().any(|update| update.variable == *name)
-    };
-    let found = variables.clone().find(|v| !known(&v.name));
-    let found = found.or_else(|| variables.next());
-    let place = found.map_or_else(|| pass.at.clone(), |variable| variable.at.clone());
+/// The variant for materials with holes binds something where the one for all others binds another.
+fn other_variant(place: Place) -> Problem {
     Problem::new(
         place,
         "this shader asks for one thing with ALPHA_TEST and for another without",
     )
-    .with_hint("declare variables of groups 1 and 2 outside of `#ifdef ALPHA_TEST`")
+    .with_hint(
+        "what only one of them needs takes a binding of its own; group 2 is the same for both",
+    )
 }
 
 /// A refusal of the device that nobody foresaw. Its words are for those who mend the program.

@@ -1,6 +1,9 @@
-//! All meshes in three buffers: positions, other attributes, indices.
+//! All meshes in four buffers: positions, other attributes, smooth groups, indices.
 //!
-//! Passes that need depth alone read positions alone, at a quarter of the memory traffic.
+//! Passes that need depth alone read positions alone, at a quarter of the memory traffic. Smooth
+//! groups take one byte a vertex and are found once for each mesh.
+
+use std::collections::HashMap;
 
 use lightbench_assets::{Assets, Mesh};
 use lightbench_world::MeshId;
@@ -18,13 +21,28 @@ pub struct MeshRange {
     pub base_vertex: i32,
 }
 
-/// The unit shapes of light volumes.
+/// The shapes of light volumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
     /// A sphere that encloses the unit sphere.
     Sphere,
     /// A cone with its apex at the origin, along −z, of length 1 and base radius 1.
     Cone,
+    /// A mesh of the scene.
+    Mesh(MeshId),
+}
+
+/// The buffers of all meshes.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshBuffers<'a> {
+    /// Vertex positions.
+    pub positions: &'a wgpu::Buffer,
+    /// The rest of the vertices.
+    pub attributes: &'a wgpu::Buffer,
+    /// The smooth group of each vertex.
+    pub groups: &'a wgpu::Buffer,
+    /// Indices.
+    pub indices: &'a wgpu::Buffer,
 }
 
 /// Meshes and shapes on the device.
@@ -32,10 +50,13 @@ pub struct MeshPool {
     gpu: Gpu,
     positions: wgpu::Buffer,
     attributes: wgpu::Buffer,
+    groups: wgpu::Buffer,
     indices: wgpu::Buffer,
     ranges: Vec<MeshRange>,
     shapes: [MeshRange; 2],
     revisions: Option<Vec<u64>>,
+    /// The smooth group of each vertex, by the revision of the mesh.
+    known_groups: HashMap<u64, Vec<u8>>,
     /// How often the buffers were made.
     buffers: u64,
 }
@@ -58,11 +79,13 @@ impl MeshPool {
             gpu: gpu.clone(),
             positions: empty(VERTICES),
             attributes: empty(VERTICES),
+            groups: empty(wgpu::BufferUsages::STORAGE),
             indices: empty(INDICES),
             buffers: 1,
             ranges: Vec::new(),
             shapes: Default::default(),
             revisions: None,
+            known_groups: HashMap::new(),
         }
     }
 
@@ -80,11 +103,18 @@ impl MeshPool {
             packed.shape(&volumes::unit_sphere()),
             packed.shape(&volumes::unit_cone()),
         ];
-        self.ranges = assets
-            .meshes()
-            .iter()
-            .map(|entry| packed.mesh(&entry.value))
-            .collect();
+        // Groups of meshes that are gone are forgotten.
+        let mut known = std::mem::take(&mut self.known_groups);
+        self.ranges.clear();
+        for entry in assets.meshes() {
+            let (mesh, revision) = (&entry.value, entry.revision);
+            let groups = known.remove(&revision).unwrap_or_else(|| group_bytes(mesh));
+            self.ranges.push(packed.mesh(mesh, &groups));
+            self.known_groups.insert(revision, groups);
+        }
+        packed
+            .groups
+            .resize(packed.groups.len().next_multiple_of(4), 0);
 
         let largest = self.gpu.device.limits().max_buffer_size;
         let attribute_bytes = (packed.attributes.len() * size_of::<VertexAttributes>()) as u64;
@@ -116,19 +146,26 @@ impl MeshPool {
             bytemuck::cast_slice(&packed.attributes),
             VERTICES,
         );
+        self.groups = upload("smooth groups", &packed.groups, wgpu::BufferUsages::STORAGE);
         self.indices = upload("indices", bytemuck::cast_slice(&packed.indices), INDICES);
         self.revisions = Some(revisions);
         self.buffers += 1;
         Ok(())
     }
 
-    /// Vertex positions, the rest of the vertices, and indices, for shaders that fetch vertices
-    /// themselves; and a number that differs where the buffers are others than before.
-    pub fn buffers(&self) -> ([&wgpu::Buffer; 3], u64) {
-        (
-            [&self.positions, &self.attributes, &self.indices],
-            self.buffers,
-        )
+    /// The buffers, for shaders that fetch vertices themselves.
+    pub fn buffers(&self) -> MeshBuffers<'_> {
+        MeshBuffers {
+            positions: &self.positions,
+            attributes: &self.attributes,
+            groups: &self.groups,
+            indices: &self.indices,
+        }
+    }
+
+    /// A number that differs where the buffers are others than before.
+    pub fn revision(&self) -> u64 {
+        self.buffers
     }
 
     /// Uploads again at the next [`MeshPool::sync`].
@@ -141,9 +178,13 @@ impl MeshPool {
         self.ranges.get(mesh.0 as usize)
     }
 
-    /// Where a shape lies.
-    pub fn shape(&self, shape: Shape) -> &MeshRange {
-        &self.shapes[shape as usize]
+    /// Where a shape lies; none for a mesh that is not there.
+    pub fn shape(&self, shape: Shape) -> Option<&MeshRange> {
+        match shape {
+            Shape::Sphere => Some(&self.shapes[0]),
+            Shape::Cone => Some(&self.shapes[1]),
+            Shape::Mesh(mesh) => self.range(mesh),
+        }
     }
 
     /// Binds the vertex streams and the indices.
@@ -157,7 +198,7 @@ impl MeshPool {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.positions.size() + self.attributes.size() + self.indices.size()
+        self.positions.size() + self.attributes.size() + self.groups.size() + self.indices.size()
     }
 }
 
@@ -166,11 +207,18 @@ impl MeshPool {
 struct Packed {
     positions: Vec<[f32; 3]>,
     attributes: Vec<VertexAttributes>,
+    groups: Vec<u8>,
     indices: Vec<u32>,
 }
 
+/// The smooth group of each vertex in a byte: beyond 256, groups share numbers.
+fn group_bytes(mesh: &Mesh) -> Vec<u8> {
+    let groups = mesh.smooth_groups();
+    groups.iter().map(|group| *group as u8).collect()
+}
+
 impl Packed {
-    fn mesh(&mut self, mesh: &Mesh) -> MeshRange {
+    fn mesh(&mut self, mesh: &Mesh, groups: &[u8]) -> MeshRange {
         let range = self.range(&mesh.indices);
         self.positions
             .extend(mesh.positions.iter().map(|p| p.to_array()));
@@ -180,6 +228,7 @@ impl Packed {
                 uv: mesh.uvs[i].to_array(),
                 tangent: mesh.tangents[i].to_array(),
             }));
+        self.groups.extend_from_slice(groups);
         range
     }
 
@@ -190,6 +239,7 @@ impl Packed {
             .extend(positions.iter().map(|p| p.to_array()));
         self.attributes
             .resize(self.positions.len(), bytemuck::Zeroable::zeroed());
+        self.groups.resize(self.positions.len(), 0);
         range
     }
 

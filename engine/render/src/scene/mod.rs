@@ -9,16 +9,17 @@ use lightbench_assets::Assets;
 use lightbench_world::World;
 
 pub use buffer::RowBuffer;
-pub use meshes::{MeshPool, MeshRange, Shape};
+pub use meshes::{MeshBuffers, MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
+use crate::engine_buffers::EngineBuffers;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::gpu_data::{
     DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, MaterialData, NO_TEXTURE,
+    ShadowViewData,
 };
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
-use crate::pipeline::EngineBuffers;
 use rows::SceneRows;
 use textures::TexturePool;
 
@@ -37,6 +38,12 @@ pub struct Scene {
     drawn: RowBuffer<DrawnObject>,
     object_lights: RowBuffer<u32>,
     volumes: RowBuffer<LightVolumeData>,
+    shadow_views: RowBuffer<ShadowViewData>,
+    light_shadows: RowBuffer<u32>,
+    /// How often the last two were replaced.
+    shadow_buffers: u64,
+    /// Frames for the uniform buffer, each at its offset.
+    views: Vec<u8>,
     sampler: wgpu::Sampler,
     group: Option<wgpu::BindGroup>,
     assets_revision: Option<u64>,
@@ -57,25 +64,23 @@ impl Scene {
             anisotropy_clamp: if gpu.summary.software { 1 } else { 8 },
             ..Default::default()
         });
-        let frame = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("frame"),
-            size: size_of::<FrameData>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
         Self {
             gpu: gpu.clone(),
             layout: layout.clone(),
             meshes: MeshPool::new(gpu),
             textures: TexturePool::new(gpu),
             rows: SceneRows::default(),
-            frame,
+            frame: frame_buffer(gpu, size_of::<FrameData>() as u64),
             materials: RowBuffer::new(gpu, "materials"),
             instances: RowBuffer::new(gpu, "instances"),
             lights: RowBuffer::new(gpu, "lights"),
             drawn: RowBuffer::new(gpu, "drawn objects"),
             object_lights: RowBuffer::new(gpu, "object lights"),
             volumes: RowBuffer::new(gpu, "light volumes"),
+            shadow_views: RowBuffer::new(gpu, "shadow views"),
+            light_shadows: RowBuffer::new(gpu, "light shadows"),
+            shadow_buffers: 0,
+            views: Vec::new(),
             sampler,
             group: None,
             assets_revision: None,
@@ -128,7 +133,8 @@ impl Scene {
 
     /// Copies the rows of instances and lights that changed since the last call.
     pub fn sync_world(&mut self, world: &World) {
-        self.rows.sync(world, &mut self.instances, &mut self.lights);
+        let (instances, lights) = (&mut self.instances, &mut self.lights);
+        self.rows.sync(world, &self.meshes, instances, lights);
     }
 
     /// The lights, in the order of their rows.
@@ -143,9 +149,7 @@ impl Scene {
 
     /// Uploads a frame and returns group 0.
     pub fn upload(&mut self, frame: &Frame) -> &wgpu::BindGroup {
-        self.gpu
-            .queue
-            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame.data));
+        self.upload_frames(frame);
         self.drawn.replace_if_changed(&frame.drawn);
         self.object_lights.replace_if_changed(&frame.object_lights);
         self.volumes.replace_if_changed(&frame.volumes);
@@ -174,6 +178,38 @@ impl Scene {
             ),
         };
         self.group.insert(group)
+    }
+
+    /// Bytes from one frame to the next in the uniform buffer.
+    pub fn view_bytes(&self) -> u32 {
+        let alignment = self.gpu.device.limits().min_uniform_buffer_offset_alignment;
+        (size_of::<FrameData>() as u32).next_multiple_of(alignment)
+    }
+
+    /// Uploads what the camera sees as `frame`, and after it each shadow view.
+    fn upload_frames(&mut self, frame: &Frame) {
+        let step = self.view_bytes() as usize;
+        self.views.clear();
+        for (index, data) in std::iter::once(&frame.data).chain(&frame.views).enumerate() {
+            self.views.resize(index * step, 0);
+            self.views.extend_from_slice(bytemuck::bytes_of(data));
+        }
+        if (self.frame.size() as usize) < self.views.len() {
+            let size = self.views.len().next_power_of_two();
+            self.frame = frame_buffer(&self.gpu, size as u64);
+            self.group = None;
+        }
+        self.gpu.queue.write_buffer(&self.frame, 0, &self.views);
+    }
+
+    /// Uploads the shadow views that shaders look up.
+    pub fn upload_views(&mut self, frame: &Frame) {
+        self.shadow_views.replace_if_changed(&frame.shadow_views);
+        self.light_shadows.replace_if_changed(&frame.light_shadows);
+        let views = self.shadow_views.flush(&self.gpu);
+        if self.light_shadows.flush(&self.gpu) || views {
+            self.shadow_buffers += 1;
+        }
     }
 
     fn buffers(&self) -> [&wgpu::Buffer; 7] {
@@ -228,12 +264,12 @@ impl Scene {
 
     /// The buffers that passes may bind beside group 0.
     pub fn engine_buffers(&self) -> EngineBuffers<'_> {
-        let ([mesh_positions, mesh_attributes, mesh_indices], revision) = self.meshes.buffers();
         EngineBuffers {
-            mesh_positions,
-            mesh_attributes,
-            mesh_indices,
-            revision,
+            meshes: self.meshes.buffers(),
+            shadow_views: self.shadow_views.buffer(),
+            light_shadows: self.light_shadows.buffer(),
+            // Each of the two numbers only grows.
+            revision: self.meshes.revision() + self.shadow_buffers,
         }
     }
 
@@ -245,6 +281,8 @@ impl Scene {
             + self.drawn.take_uploaded()
             + self.object_lights.take_uploaded()
             + self.volumes.take_uploaded()
+            + self.shadow_views.take_uploaded()
+            + self.light_shadows.take_uploaded()
     }
 
     /// What had to be changed to fit the device, once.
@@ -256,4 +294,13 @@ impl Scene {
     pub fn asset_bytes(&self) -> u64 {
         self.meshes.bytes() + self.textures.bytes()
     }
+}
+
+fn frame_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("frame"),
+        size,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }

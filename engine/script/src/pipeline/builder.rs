@@ -143,7 +143,10 @@ impl Pipelines {
             if result.is_ok() {
                 problems.extend(builder.unknown_settings());
             }
-            desc = Some(builder.desc.clone());
+            desc = Some(PipelineDesc {
+                scripts: compiler.sources.paths(),
+                ..builder.desc.clone()
+            });
         } else if result.is_ok() {
             let text = compiler.sources.text(&self.path);
             let place = match text.filter(|text| !text.trim().is_empty()) {

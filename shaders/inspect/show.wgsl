@@ -1,8 +1,9 @@
-// Inspect: any target as a picture for people.
+// Inspect: a slice of any target as a picture for people.
 //
-// In:  one target of floats, of integers or of depth; which channels, which range, which map.
+// In:  the target of `lightbench::inspected`; which sample, channels, range and map.
 // Out: display-ready colours. What is not a number is magenta.
 #import lightbench::color
+#import lightbench::inspected
 
 struct Inspection {
     low: f32,       // shown as black
@@ -11,12 +12,11 @@ struct Inspection {
     far: f32,       // metres; infinity is sent as 0
     channels: u32,  // SHOW_…
     map: u32,       // MAP_…
+    slice: i32,     // of a volume
+    sample: i32,    // of a texel with several; below 0: the mean of all
 }
 
 @group(0) @binding(0) var<uniform> inspection: Inspection;
-@group(0) @binding(1) var float_target: texture_2d<f32>;
-@group(0) @binding(2) var uint_target: texture_2d<u32>;
-@group(0) @binding(3) var depth_target: texture_depth_2d;
 
 const SHOW_COLOR: u32 = 4u;     // 0 to 3 are single channels
 
@@ -24,7 +24,7 @@ const MAP_LIGHT: u32 = 0u;      // linear light, coded as sRGB
 const MAP_DATA: u32 = 1u;       // values as they are
 const MAP_FALSE_COLOR: u32 = 2u;
 
-// Rust's numbers for these are in engine/render/src/inspect.rs.
+// Rust's numbers for these are in engine/render/src/inspect/show.rs.
 
 fn is_nan(x: f32) -> bool {
     // Compilers may assume that x != x is false.
@@ -70,25 +70,20 @@ fn vertex_main(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 }
 
 @fragment
-fn float_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return show(textureLoad(float_target, vec2i(pixel.xy), 0));
-}
-
-@fragment
-fn uint_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return show(vec4f(textureLoad(uint_target, vec2i(pixel.xy), 0)));
-}
-
-@fragment
-fn depth_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let texel = vec3i(vec2i(pixel.xy), inspection.slice);
+    let value = inspected::load_value(texel, inspection.sample);
+#ifdef DEPTH
     // Depth is reversed: 1 at the near plane, 0 at the far one.
-    let depth = textureLoad(depth_target, vec2i(pixel.xy), 0);
-    var inverse = depth;
+    var inverse = value.r;
     if inspection.far > 0.0 {
         let ratio = inspection.near / inspection.far;
-        inverse = ratio + depth * (1.0 - ratio);
+        inverse = ratio + value.r * (1.0 - ratio);
     }
     // Nothing was drawn at infinity: it is as far as the range shows.
     let metres = inspection.near / max(inverse, 1e-12);
     return show(vec4f(vec3f(metres), 1.0));
+#else
+    return show(value);
+#endif
 }

@@ -1,0 +1,44 @@
+//! GPU pipelines of `shadow` passes.
+
+use lightbench_assets::files::Files;
+
+use super::{Compiler, PassLayout};
+use crate::description::{Geometry, PassDesc, PassKind, PipelineDesc, ShaderDesc, Shadow};
+use crate::gpu_pipelines::PassPipelines;
+use crate::problem::Problem;
+
+/// What leaves the holes of alpha-tested casters, unless the pass brings a shader of its own.
+const SHADOW_SHADER: &str = "shaders/forward/depth_only.wgsl";
+
+impl Compiler {
+    /// Those of a depth-only `geometry` pass.
+    pub(super) fn shadow(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        shadow: &Shadow,
+        layout: &PassLayout,
+    ) -> Result<PassPipelines, Problem> {
+        let geometry = Geometry {
+            faces: shadow.faces,
+            ..Geometry::default()
+        };
+        let built = self.variants_of(files, desc, pass, &geometry, layout)?;
+        Ok(PassPipelines::Shadow(built))
+    }
+}
+
+/// The pass, with a shader if it is a `shadow` pass that names none.
+pub(super) fn with_shader(pass: &PassDesc) -> PassDesc {
+    let mut pass = pass.clone();
+    if matches!(pass.kind, PassKind::Shadow(_)) && pass.shader.is_none() {
+        pass.shader = Some(ShaderDesc {
+            path: SHADOW_SHADER.to_owned(),
+            at: pass.at.clone(),
+            defines: Vec::new(),
+            define_places: Vec::new(),
+        });
+    }
+    pass
+}
