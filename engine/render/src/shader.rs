@@ -29,8 +29,8 @@ use modules::{ModuleFile, check_imported, circle, read, read_modules};
 
 pub use declarations::Listings;
 pub use listing::Listing;
-pub use modules::MODULES;
 pub(crate) use listing::with_plain_line_ends;
+pub use modules::MODULES;
 
 /// A shader that parsed and validated, before any pipeline is built from it.
 #[derive(Clone, Debug)]
@@ -124,7 +124,9 @@ impl ShaderComposer {
     /// The names of all modules.
     fn names(&self) -> Vec<&str> {
         let modules = self.modules.iter();
-        modules.filter_map(|module| module.name.as_deref()).collect()
+        modules
+            .filter_map(|module| module.name.as_deref())
+            .collect()
     }
 
     /// The file of the module of that name.

@@ -6,7 +6,7 @@
 //! An edit names a file. Of the lines below it those with `-` are in the file, once and in this
 //! order, and those with `+` take their place; then others may follow. `remove`, `empty` and `cut`
 //! before a file's name take it away, empty it or leave its first half. `portable` alone means a
-//! device that has no more than every device has.
+//! device that has no more than every device has. In the report, lines of shipped files are `*`.
 
 /// A change of a file.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,7 +3,7 @@
 use naga::ShaderStage;
 
 use super::Binder;
-use crate::description::{BlendFactor, ColorAttachment, Geometry, ParameterKind, PassKind, TargetDesc};
+use crate::description::{BlendFactor, ColorAttachment, ParameterKind, PassKind, TargetDesc};
 use crate::problem::{Place, suggestion};
 use crate::reflection::{
     BindingKind, COMPUTE_ENTRY, EntryPoint, FRAGMENT_ENTRY, NumberType, SampleKind, VERTEX_ENTRY,
@@ -37,9 +37,32 @@ impl<S: FormatSupport> Binder<'_, S> {
                 Some(entry) if stage == ShaderStage::Vertex && wanted == ShaderStage::Fragment => {
                     self.own_vertex(entry);
                 }
+                None if stage == ShaderStage::Vertex && self.pulls_vertices() => {
+                    let at = self.pass.shader.as_ref().map(|shader| &shader.at);
+                    self.fetches_nothing(at.unwrap_or(&self.pass.at));
+                }
                 _ => {}
             }
         }
+    }
+
+    fn pulls_vertices(&self) -> bool {
+        matches!(&self.pass.kind, PassKind::Geometry(geometry) if geometry.pull_vertices)
+    }
+
+    /// A pass that draws without vertex buffers has a shader that reads them, or that has no vertex
+    /// stage.
+    fn fetches_nothing(&mut self, at: &Place) {
+        let message = format!(
+            "`{}` pulls its vertices, but `{}` has no vertex stage that fetches them",
+            self.pass.name, self.shader.path
+        );
+        self.report(
+            at,
+            message,
+            "write `@vertex fn vertex_main(@builtin(vertex_index) …)` without @location inputs, and \
+             fetch from `mesh_indices` and `mesh_positions`",
+        );
     }
 
     /// The stage that the pass can't do without.
@@ -141,11 +164,11 @@ impl<S: FormatSupport> Binder<'_, S> {
                     );
                 }
             }
-            // What such a pass needs is told when it is built.
-            PassKind::Geometry(Geometry {
-                pull_vertices: true,
-                ..
-            }) => {}
+            PassKind::Geometry(_) if self.pulls_vertices() => {
+                if let Some(input) = entry.inputs.first() {
+                    self.fetches_nothing(&input.at);
+                }
+            }
             _ => entry
                 .inputs
                 .iter()
@@ -239,7 +262,13 @@ impl<S: FormatSupport> Binder<'_, S> {
                         "the shader writes @location({}), but the pass `{}` has {targets}",
                         output.location, pass.name
                     ),
-                    "add a .writes to the pass, or remove the output; outputs are counted from 0",
+                    match pass.kind {
+                        PassKind::Shadow(_) => "remove the output: a shadow pass keeps depth alone",
+                        _ => {
+                            "add a .writes to the pass, or remove the output; outputs are counted \
+                             from 0"
+                        }
+                    },
                 );
             }
         }

@@ -39,10 +39,7 @@ pub(super) fn read_modules(files: &Files) -> Result<Vec<ModuleFile>, Problem> {
             named_in: named_in.unwrap_or(0),
         })
     };
-    listed
-        .into_iter()
-        .map(|entry| module(entry.path))
-        .collect()
+    listed.into_iter().map(|entry| module(entry.path)).collect()
 }
 
 /// Reads a shader or module.

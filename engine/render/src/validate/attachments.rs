@@ -12,7 +12,9 @@ use crate::reflection::SampleKind;
 impl<S: FormatSupport> Checker<'_, S> {
     pub(super) fn attachments(&mut self, pass: &PassDesc) {
         let writes = !pass.colors.is_empty() || pass.depth.is_some() || !pass.updates.is_empty();
-        if pass.kind.rasterises() && !writes {
+        // What a shadow pass must write is told with its kind.
+        let shadow = matches!(pass.kind, PassKind::Shadow(_));
+        if pass.kind.rasterises() && !writes && !shadow {
             self.report(
                 &pass.at,
                 format!("the pass `{}` writes nothing", pass.name),

@@ -2,8 +2,8 @@
 
 use super::{Checker, FormatSupport};
 use crate::description::{
-    Amount, Dispatch, LightStencil, Lights, Load, PassDesc, PassKind, Shadow, ShadowViews,
-    StencilClear,
+    Amount, ColorMask, Dispatch, LightStencil, Lights, Load, PassDesc, PassKind, Shadow,
+    ShadowViews, Slice, StencilClear,
 };
 use crate::problem::suggestion;
 
@@ -11,6 +11,14 @@ impl<S: FormatSupport> Checker<'_, S> {
     pub(super) fn kind(&mut self, pass: &PassDesc) {
         match &pass.kind {
             PassKind::Geometry(geometry) => {
+                if geometry.pull_vertices && pass.shader.is_none() {
+                    self.report(
+                        &pass.at,
+                        format!("`{}` pulls its vertices, but has no shader", pass.name),
+                        "add .shader(\"shaders/name.wgsl\") with a vertex stage of its own"
+                            .to_owned(),
+                    );
+                }
                 if let Some(repeat) = geometry.repeat.filter(|repeat| repeat.stencil) {
                     if repeat.lights != 1 {
                         self.report(
@@ -46,6 +54,19 @@ impl<S: FormatSupport> Checker<'_, S> {
     /// Array n of the lights has channel n mod 4 of colour target n / 4.
     fn light_arrays(&mut self, pass: &PassDesc, lights: &Lights) {
         let desc = self.desc;
+        let mut masked = pass.colors.iter().filter(|c| c.mask != ColorMask::ALL);
+        if lights.arrays > 0
+            && let Some(color) = masked.next()
+        {
+            self.report(
+                &color.at,
+                format!(
+                    "the arrays of `{}` choose themselves which channels of `{}` they write",
+                    pass.name, color.target
+                ),
+                "drop .mask, or .arrays".to_owned(),
+            );
+        }
         let has = |array: u32| {
             let color = pass.colors.get(array as usize / 4)?;
             let target = desc.target(&color.target)?;
@@ -125,6 +146,16 @@ impl<S: FormatSupport> Checker<'_, S> {
                 &depth.at,
                 format!("the shadow pass `{}` would write nothing", pass.name),
                 "drop .read_only()".to_owned(),
+            );
+        }
+        if depth.slice != Slice::default() {
+            self.report(
+                &depth.at,
+                format!(
+                    "the shadow pass `{}` draws to all layers of `{}`, a view to each",
+                    pass.name, depth.target
+                ),
+                "drop .layer, or draw the one layer to a target of its own".to_owned(),
             );
         }
         if let Some(stencil) = &depth.stencil {
