@@ -102,7 +102,10 @@ impl ShaderComposer {
                 ..Default::default()
             };
             let composer = &mut self.composer;
-            let added = guard::catch(|| composer.add_composable_module(descriptor).map(|_| ()));
+            let added = guard::catch(|| {
+                let added = composer.add_composable_module(descriptor);
+                added.map(|_| ()).map_err(Box::new)
+            });
             match added {
                 Ok(Ok(())) => self.added.insert(listing.path.clone()),
                 Ok(Err(error)) => return Err(self.explain(&error, listings, None)),
@@ -180,7 +183,7 @@ impl ShaderComposer {
             }
         };
         let mut validator = Validator::new(ValidationFlags::all(), self.capabilities);
-        let info = guard::catch(|| validator.validate(&module))
+        let info = guard::catch(|| validator.validate(&module).map_err(Box::new))
             .map_err(|fault| unexpected(path, &fault))?
             .map_err(|error| unexpected(path, &error.as_inner().to_string()))?;
         let modules = listings.modules().map(|(_, module)| module.path.clone());
