@@ -3,6 +3,7 @@
 // In:  the target of `lightbench::inspected`; which sample, channels, range and map.
 // Out: display-ready colours. What is not a number is magenta.
 #import lightbench::color
+#import lightbench::color_map
 #import lightbench::inspected
 
 struct Inspection {
@@ -31,18 +32,6 @@ fn is_nan(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7fffffffu) > 0x7f800000u;
 }
 
-// Viridis by N. Smith and S. van der Walt 2015, as a polynomial (M. Zucker, published under CC0).
-fn viridis(t: f32) -> vec3f {
-    let c0 = vec3f(0.27772733, 0.00540734, 0.33409981);
-    let c1 = vec3f(0.10509304, 1.40461353, 1.38459016);
-    let c2 = vec3f(-0.33086183, 0.21484756, 0.09509516);
-    let c3 = vec3f(-4.63423050, -5.79910097, -19.33244096);
-    let c4 = vec3f(6.22826994, 14.17993337, 56.69055260);
-    let c5 = vec3f(4.77638500, -13.74514538, -65.35303263);
-    let c6 = vec3f(-5.43545586, 4.64585261, 26.31243525);
-    return c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * (c5 + t * c6)))));
-}
-
 fn show(value: vec4f) -> vec4f {
     var shown = value.rgb;
     if inspection.channels != SHOW_COLOR {
@@ -57,7 +46,7 @@ fn show(value: vec4f) -> vec4f {
         case MAP_FALSE_COLOR: {
             // Of a colour, false colours show the luminance (Rec. 709).
             let value = dot(scaled, vec3f(0.2126, 0.7152, 0.0722));
-            return vec4f(saturate(viridis(value)), 1.0);
+            return vec4f(saturate(color_map::viridis(value)), 1.0);
         }
         default: { return vec4f(scaled, 1.0); }
     }

@@ -13,6 +13,9 @@
 
 #import lightbench::scene
 #import lightbench::surface
+#ifdef COUNT_LIGHTS
+#import lightbench::light_counts
+#endif
 
 const PI: f32 = 3.14159265;
 
@@ -43,6 +46,12 @@ struct ArrivingLight {
     highlight: vec3f,
 }
 
+#ifdef COUNT_LIGHTS
+// For heat maps a light is what it counts as.
+fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> ArrivingLight {
+    return ArrivingLight(vec3f(light_counts::count(light, point.position)), vec3f(0.0));
+}
+#else
 fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> ArrivingLight {
     let nothing = ArrivingLight(vec3f(0.0), vec3f(0.0));
     if light.kind == scene::LIGHT_AMBIENT {
@@ -74,6 +83,7 @@ fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f
     let reflected = irradiance * n_dot_l;
     return ArrivingLight(reflected / PI, normalized_blinn_phong(n_dot_h, point.power) * reflected);
 }
+#endif
 
 fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> vec3f {
     let arriving = arriving_light(light, point, to_viewer);

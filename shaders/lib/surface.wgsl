@@ -88,6 +88,12 @@ fn bent_normal(point: Point) -> vec3f {
     return safe_normalize(tangent * bent.x + bitangent * bent.y + normal * bent.z);
 }
 
+#ifdef COUNT_LIGHTS
+// For heat maps all surfaces are white, matt and dark of their own, so that what arrives is seen.
+fn surface_of_color(point: Point, color: vec4f) -> Surface {
+    return Surface(point.position, bent_normal(point), vec3f(1.0), 0.0, 1.0, vec3f(0.0), 1.0);
+}
+#else
 fn surface_of_color(point: Point, color: vec4f) -> Surface {
     let material = material_of(point);
     return Surface(
@@ -101,6 +107,7 @@ fn surface_of_color(point: Point, color: vec4f) -> Surface {
         select(material.opacity * color.a, 1.0, material.opacity >= 1.0),
     );
 }
+#endif
 
 // The surface at a point that is known not to lie in a hole of an alpha-tested material.
 fn point_surface(point: Point) -> Surface {

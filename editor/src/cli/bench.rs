@@ -9,8 +9,9 @@ use lightbench::world::layouts;
 use super::arguments::{GpuArguments, Size};
 use super::bench_frame::{self, FrameArguments};
 use super::progress::Bar;
+use super::project;
 use super::report::say;
-use crate::ui::bench::{BenchOptions, reload, swap};
+use crate::ui::bench::{BenchOptions, reload, scene, swap};
 
 /// Arguments of `lightbench bench`.
 #[derive(Args, Debug)]
@@ -22,6 +23,7 @@ Examples:
   lightbench bench world --objects 100000
   lightbench bench frame many_lights --set spheres=10000
   lightbench bench reload --size 320x180 --edits 20
+  lightbench bench scene atrium --edits 20
   lightbench bench swap --pipelines forward_single_pass,deferred_shading"
 )]
 pub struct Arguments {
@@ -58,6 +60,26 @@ enum What {
             long,
             value_name = "N",
             default_value_t = 100,
+            value_parser = clap::value_parser!(u32).range(1..=10_000)
+        )]
+        edits: u32,
+        #[command(flatten)]
+        gpu: GpuArguments,
+    },
+    /// Saves a scene's script again and again, and says how long it takes until the picture has
+    /// changed, beside a load that reuses nothing
+    Scene {
+        /// The scene, drawn through deferred shading
+        #[arg(value_name = "SCENE", default_value = "atrium")]
+        scene: String,
+        /// Width and height in pixels
+        #[arg(long, value_name = "WxH", default_value = "640x360")]
+        size: Size,
+        /// How often the script is saved
+        #[arg(
+            long,
+            value_name = "N",
+            default_value_t = 50,
             value_parser = clap::value_parser!(u32).range(1..=10_000)
         )]
         edits: u32,
@@ -110,6 +132,26 @@ pub fn run(
             let times = reload::reload(&options, *edits as usize, |done| {
                 // Only the bar listens.
                 let _ = progress.begin("saving a shader", done as f32 / *edits as f32);
+            });
+            drop(bar);
+            say(times?.to_string())
+        }
+        What::Scene {
+            scene,
+            size,
+            edits,
+            gpu,
+        } => {
+            let mut files = files()?;
+            let options = BenchOptions {
+                gpu: gpu.options(),
+                scene: project::script(&mut files, scene)?,
+                size: (*size).into(),
+            };
+            let progress = Progress::new();
+            let bar = Bar::follow(&progress);
+            let times = scene::scene(&options, &files, *edits as usize, |done| {
+                let _ = progress.begin("saving a script", done as f32 / *edits as f32);
             });
             drop(bar);
             say(times?.to_string())

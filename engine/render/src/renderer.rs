@@ -21,7 +21,7 @@ use crate::queries::{Measured, Queries};
 use crate::readback::{TargetImage, read_bytes, read_image};
 use crate::record::{Recording, is_cold, measures, record, warm};
 use crate::room::check_room;
-use crate::scene::Scene;
+use crate::scene::{Scene, Uploads};
 use crate::statistics::FrameStatistics;
 use crate::targets::{Target, Targets};
 use crate::variant::Variants;
@@ -161,7 +161,13 @@ impl Renderer {
         Compiler::new(&self.gpu, &self.layout)
     }
 
-    /// Tells the renderer that another world and other assets come next.
+    /// Meshes and textures that have travelled to the device since the renderer was made.
+    pub fn uploads(&self) -> Uploads {
+        self.scene.uploads()
+    }
+
+    /// Tells the renderer that another world and other assets come next. Meshes and textures that
+    /// both scenes share, by their revision, stay on the device.
     pub fn reset_scene(&mut self) {
         self.scene.reset();
     }

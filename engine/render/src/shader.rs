@@ -6,6 +6,7 @@ mod explain;
 mod imports;
 mod listing;
 mod modules;
+mod narrow;
 mod syntax;
 mod tokens;
 mod validity;
@@ -179,7 +180,11 @@ impl ShaderComposer {
                     false => None,
                 };
                 let explained = guard::catch(|| self.explain(&error, &listings, module.as_ref()));
-                return Err(explained.unwrap_or_else(|fault| unexpected(path, &fault)));
+                let mut problem = explained.unwrap_or_else(|fault| unexpected(path, &fault));
+                if problem.place == Place::file(path) {
+                    self.find_line(&error, &mut problem, &listings, defines);
+                }
+                return Err(problem);
             }
         };
         let mut validator = Validator::new(ValidationFlags::all(), self.capabilities);
@@ -256,6 +261,38 @@ impl ShaderComposer {
                 Err(unexpected(path, &fault))
             }
         }
+    }
+
+    /// Finds the line of a complaint of the reader about the shader itself that names none.
+    fn find_line(
+        &mut self,
+        error: &ComposerError,
+        problem: &mut Problem,
+        listings: &Listings,
+        defines: &[Define],
+    ) {
+        let ComposerErrorInner::WgslParseError(complaint) = &error.inner else {
+            return;
+        };
+        let said = complaint.message();
+        if let Some((message, hint)) = narrow::in_words(said) {
+            problem.message = message;
+            problem.hint = Some(hint.to_owned());
+        }
+        let shader = listings.shader();
+        let same = |text: &str| match self.make(&shader.path, text, defines, false) {
+            Ok(Err(error)) => match &error.inner {
+                ComposerErrorInner::WgslParseError(other) => other.message() == said,
+                _ => false,
+            },
+            _ => false,
+        };
+        // Where it is in no function, the first line is as good as any.
+        let line = narrow::line_of(&shader.text, &shader.active, same).unwrap_or(1);
+        let written = shader.text.lines().nth(line as usize - 1).unwrap_or("");
+        let indent = written.chars().take_while(|c| c.is_whitespace()).count() as u32;
+        problem.place = Place::new(shader.path.as_str(), line, indent + 1);
+        *problem = problem.clone().with_source(&shader.text);
     }
 
     fn explain(

@@ -1,6 +1,7 @@
 //! The editor measures itself, without a window: the workbench ticks and draws as it does there.
 
 pub mod reload;
+pub mod scene;
 pub mod swap;
 
 use std::sync::Arc;

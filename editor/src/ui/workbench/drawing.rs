@@ -12,8 +12,8 @@ use super::resolution::Resolution;
 /// How long nothing must move before the picture is drawn at full size.
 const REST: Duration = Duration::from_millis(250);
 
-/// How long a picture stays at most while a newer state of its pipeline is built: the cores of a
-/// software driver are better spent on that.
+/// How long a picture stays at most while a newer state of its pipeline is built or of its scene
+/// loaded: the cores of a software driver are better spent on that.
 const HOLD: Duration = Duration::from_millis(250);
 
 /// Frames that the device may have to do at once. The next one would wait for it, and all widgets
@@ -101,7 +101,7 @@ impl Workbench {
         let wanted = Drawn { view, size, scale };
         self.warm_up(wanted);
         let held = self.canvas.drawn_at.is_some_and(|at| now - at < HOLD);
-        let held = held && self.pipelines.is_renewing();
+        let held = held && (self.pipelines.is_renewing() || self.scenes.is_renewing());
         if (self.canvas.stale || before != Some(wanted)) && !held && self.has_room() {
             self.canvas.drawn_at = Some(now);
             self.redraw(wanted);

@@ -38,6 +38,13 @@ pub fn resident_bytes() -> Option<u64> {
     system.process(this).map(sysinfo::Process::memory)
 }
 
+/// How many programs wanted a core at a time, on average over the last minute; `None` where the
+/// system does not tell.
+pub fn load_average() -> Option<f64> {
+    let average = System::load_average().one;
+    (average > 0.0).then_some(average)
+}
+
 impl From<&AdapterSummary> for Adapter {
     fn from(summary: &AdapterSummary) -> Self {
         Self {

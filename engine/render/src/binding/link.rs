@@ -3,6 +3,7 @@
 use naga::ShaderStage;
 
 use super::scene::check_scene;
+use super::stages::mesh_input;
 use crate::description::PassDesc;
 use crate::problem::{Place, Problem};
 use crate::reflection::{
@@ -46,6 +47,31 @@ pub fn link(
         check_input(input, given, &shader.path, pass)?;
     }
     Ok(())
+}
+
+/// Checks what a vertex stage that many passes share reads of vertices. Without `meshes` it covers the
+/// screen and has none.
+///
+/// # Errors
+/// The first input that there is not, or that is something else.
+pub fn check_vertices(vertex: Reflected, meshes: bool) -> Result<(), Problem> {
+    let entry = vertex.1.entry(VERTEX_ENTRY, ShaderStage::Vertex);
+    let mut inputs = entry.iter().flat_map(|entry| &entry.inputs);
+    let problem = if meshes {
+        inputs.find_map(mesh_input)
+    } else {
+        inputs.next().map(|input| {
+            Problem::new(
+                input.at.clone(),
+                format!(
+                    "what covers the screen has no `@location({})`",
+                    input.location
+                ),
+            )
+            .with_hint("take `@builtin(vertex_index)`, which is 0, 1 and 2")
+        })
+    };
+    problem.map_or(Ok(()), Err)
 }
 
 /// A stage that many passes share knows the scene and nothing of a pass.

@@ -14,7 +14,7 @@ mod stages;
 
 pub use layout::target_layout;
 pub use limits::check_shader;
-pub use link::{Reflected, link, links_mips};
+pub use link::{Reflected, check_vertices, link, links_mips};
 
 use crate::description::{PassDesc, PipelineDesc, Slice};
 use crate::gpu_data::ShadowViewData;
@@ -196,7 +196,10 @@ impl<S: FormatSupport> Binder<'_, S> {
                 "`{}` and what it imports never ask for the define `{name}`",
                 shader.path
             );
-            let at = shader.define_places.get(index).unwrap_or(&shader.at);
+            // What the program itself defines, for a heat map, is written nowhere.
+            let Some(at) = shader.define_places.get(index) else {
+                continue;
+            };
             self.problems
                 .push(Problem::new(at.clone(), message).with_hint(hint));
         }

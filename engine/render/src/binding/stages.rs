@@ -4,7 +4,7 @@ use naga::ShaderStage;
 
 use super::Binder;
 use crate::description::{BlendFactor, ColorAttachment, ParameterKind, PassKind, TargetDesc};
-use crate::problem::{Place, suggestion};
+use crate::problem::{Place, Problem, suggestion};
 use crate::reflection::{
     BindingKind, COMPUTE_ENTRY, EntryPoint, FRAGMENT_ENTRY, NumberType, SampleKind, VERTEX_ENTRY,
     Varying,
@@ -169,10 +169,9 @@ impl<S: FormatSupport> Binder<'_, S> {
                     self.fetches_nothing(&input.at);
                 }
             }
-            _ => entry
-                .inputs
-                .iter()
-                .for_each(|input| self.vertex_input(input)),
+            _ => self
+                .problems
+                .extend(entry.inputs.iter().filter_map(mesh_input)),
         }
         let reflection = self.reflection;
         for variable in reflection.targets() {
@@ -191,40 +190,6 @@ impl<S: FormatSupport> Binder<'_, S> {
                      `var<storage, read>`, and write it in another pass",
                 );
             }
-        }
-    }
-
-    /// A mesh has a position in one stream and the rest of its vertices in another.
-    fn vertex_input(&mut self, input: &Varying) {
-        let location = input.location;
-        let streams = [
-            ("position", 3),
-            ("normal", 3),
-            ("texture coordinates", 2),
-            ("tangent", 4),
-        ];
-        let Some((what, components)) = streams.get(location as usize).copied() else {
-            self.report(
-                &input.at,
-                format!("meshes have nothing at `@location({location})`"),
-                "they have 0 position (vec3f), 1 normal (vec3f), 2 texture coordinates (vec2f), 3 \
-                 tangent (vec4f)",
-            );
-            return;
-        };
-        let wanted = NumberType {
-            kind: SampleKind::Float,
-            components,
-        };
-        if input.ty != wanted {
-            self.report(
-                &input.at,
-                format!(
-                    "`@location({location})` of a mesh is its {what}, a {wanted}, not a {}",
-                    input.ty
-                ),
-                format!("declare it as `{wanted}`"),
-            );
         }
     }
 
@@ -376,6 +341,36 @@ impl<S: FormatSupport> Binder<'_, S> {
             }
         }
     }
+}
+
+/// What is wrong with an input of a vertex stage that draws meshes: they have positions in one stream
+/// and the rest of their vertices in another.
+pub(super) fn mesh_input(input: &Varying) -> Option<Problem> {
+    let location = input.location;
+    let streams = [
+        ("position", 3),
+        ("normal", 3),
+        ("texture coordinates", 2),
+        ("tangent", 4),
+    ];
+    let Some((what, components)) = streams.get(location as usize).copied() else {
+        let message = format!("meshes have nothing at `@location({location})`");
+        return Some(Problem::new(input.at.clone(), message).with_hint(
+            "they have 0 position (vec3f), 1 normal (vec3f), 2 texture coordinates (vec2f), 3 tangent \
+             (vec4f)",
+        ));
+    };
+    let wanted = NumberType {
+        kind: SampleKind::Float,
+        components,
+    };
+    (input.ty != wanted).then(|| {
+        let message = format!(
+            "`@location({location})` of a mesh is its {what}, a {wanted}, not a {}",
+            input.ty
+        );
+        Problem::new(input.at.clone(), message).with_hint(format!("declare it as `{wanted}`"))
+    })
 }
 
 /// Whether the output's alpha takes part in blending.

@@ -4,8 +4,8 @@ use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
 use super::state::{Channels, State, VertexStreams, blend};
-use super::{Compiler, LoadedShader, PassLayout, refusal};
-use crate::binding::link;
+use super::{Compiler, FULL_SCREEN, FULLSCREEN_VERTEX, LoadedShader, PassLayout, refusal};
+use crate::binding::{check_vertices, link};
 use crate::description::{PassDesc, PipelineDesc, ShaderDesc};
 use crate::gpu_pipelines::DrawPipeline;
 use crate::problem::Problem;
@@ -54,6 +54,11 @@ impl Compiler {
             vertex.reflected(),
             fragment.map(LoadedShader::reflected),
         )?;
+        if !own_vertex {
+            let meshes = state.vertex_path != FULLSCREEN_VERTEX
+                && !state.vertex_defines.contains(&FULL_SCREEN);
+            check_vertices(vertex.reflected(), meshes)?;
+        }
         let streams = VertexStreams::of(&vertex.reflection);
         let colors = color_states(desc, pass, state.channels);
         let depth_stencil = depth_state(desc, pass, state);

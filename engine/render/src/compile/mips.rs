@@ -4,7 +4,7 @@ use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
 use super::{Compiler, FULLSCREEN_VERTEX, refusal};
-use crate::binding::{link, links_mips};
+use crate::binding::{check_vertices, link, links_mips};
 use crate::description::{Define, PassDesc, PipelineDesc, Reduction};
 use crate::gpu_pipelines::{DrawPipeline, PassPipelines};
 use crate::problem::Problem;
@@ -43,6 +43,7 @@ impl Compiler {
         let fragment = &self.shaders[&(MIPS_SHADER.to_owned(), Vec::new(), defines.to_vec())];
         links_mips(MIPS_SHADER, &fragment.reflection, kind)?;
         link(pass, vertex.reflected(), None)?;
+        check_vertices(vertex.reflected(), false)?;
         let sample_type = match kind {
             SampleKind::Uint => wgpu::TextureSampleType::Uint,
             SampleKind::Sint => wgpu::TextureSampleType::Sint,

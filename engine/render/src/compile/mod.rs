@@ -37,6 +37,8 @@ use cache::PipelineCache;
 const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
 const FULLSCREEN_VERTEX: &str = "shaders/vertex/fullscreen.wgsl";
 const LIGHT_VERTEX: &str = "shaders/vertex/light_volume.wgsl";
+/// The define that lets it cover the screen, for lights without bounds.
+const FULL_SCREEN: &str = "FULL_SCREEN";
 
 /// A composed shader on the device.
 struct LoadedShader {

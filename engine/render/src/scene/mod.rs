@@ -1,7 +1,10 @@
 //! The scene on the GPU: everything of group 0, uploaded only where it changed.
 
+mod buckets;
 mod buffer;
+mod mesh_buffers;
 mod meshes;
+mod resample;
 mod rows;
 mod textures;
 
@@ -9,7 +12,8 @@ use lightbench_assets::Assets;
 use lightbench_world::World;
 
 pub use buffer::RowBuffer;
-pub use meshes::{MeshBuffers, MeshPool, MeshRange, Shape};
+pub use mesh_buffers::MeshBuffers;
+pub use meshes::{MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
 use crate::engine_buffers::EngineBuffers;
@@ -22,6 +26,17 @@ use crate::gpu_data::{
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
 use rows::SceneRows;
 use textures::TexturePool;
+
+/// What has travelled to the device since the beginning.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Uploads {
+    /// Meshes.
+    pub meshes: u64,
+    /// Textures, each with all its mip levels.
+    pub textures: u64,
+    /// Bytes of both.
+    pub bytes: u64,
+}
 
 /// The buffers and textures that every pass reads.
 pub struct Scene {
@@ -47,6 +62,7 @@ pub struct Scene {
     sampler: wgpu::Sampler,
     group: Option<wgpu::BindGroup>,
     assets_revision: Option<u64>,
+    uploads: Uploads,
     warnings: Vec<String>,
 }
 
@@ -84,12 +100,13 @@ impl Scene {
             sampler,
             group: None,
             assets_revision: None,
+            uploads: Uploads::default(),
             warnings: Vec::new(),
         }
     }
 
-    /// Uploads meshes, textures and materials that changed. Warnings (a texture that had to be
-    /// resampled) are kept for [`Scene::take_warnings`].
+    /// Uploads meshes, textures and materials that are not on the device yet. Warnings (a texture
+    /// that had to be resampled) are kept for [`Scene::take_warnings`].
     ///
     /// # Errors
     /// A sentence that says which asset the device can't hold.
@@ -97,16 +114,19 @@ impl Scene {
         if self.assets_revision == Some(assets.revision()) {
             return Ok(());
         }
-        self.meshes.sync(assets)?;
-        if self.textures.sync(assets, &mut self.warnings) {
+        self.meshes.sync(assets, &mut self.uploads)?;
+        let (uploads, warnings) = (&mut self.uploads, &mut self.warnings);
+        if self.textures.sync(assets, uploads, warnings) {
             self.group = None;
         }
         let textures = &self.textures;
         let slot = |texture: Option<lightbench_assets::TextureId>| {
             texture.map_or(NO_TEXTURE, |id| textures.slot(id))
         };
-        self.materials
-            .replace(assets.materials().iter().map(|entry| {
+        let materials: Vec<MaterialData> = assets
+            .materials()
+            .iter()
+            .map(|entry| {
                 let material = &entry.value;
                 MaterialData {
                     base_color: material.base_color,
@@ -118,16 +138,18 @@ impl Scene {
                     alpha_cutoff: material.alpha_cutoff.unwrap_or(0.0),
                     opacity: material.opacity,
                 }
-            }));
+            })
+            .collect();
+        self.materials.replace_if_changed(&materials);
         self.assets_revision = Some(assets.revision());
         Ok(())
     }
 
-    /// Forgets what was uploaded, for a scene that takes another's place.
+    /// Makes ready for a scene that takes another's place. What was uploaded stays as long as the
+    /// new scene uses it too.
     pub fn reset(&mut self) {
         self.assets_revision = None;
-        self.meshes.forget();
-        self.textures.forget();
+        self.textures.warn_again();
         self.rows = SceneRows::default();
     }
 
@@ -283,6 +305,11 @@ impl Scene {
             + self.volumes.take_uploaded()
             + self.shadow_views.take_uploaded()
             + self.light_shadows.take_uploaded()
+    }
+
+    /// What has travelled to the device since the beginning.
+    pub fn uploads(&self) -> Uploads {
+        self.uploads
     }
 
     /// What had to be changed to fit the device, once.
