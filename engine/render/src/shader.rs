@@ -139,9 +139,16 @@ impl ShaderComposer {
         modules.find(|module| module.name.as_deref() == Some(name))
     }
 
-    /// A listing of a module.
-    fn list_module(&self, module: &ModuleFile, defines: &Defines) -> Result<Listing, Problem> {
-        let listing = Listing::new(&module.path, &module.text, defines, true)?;
+    /// A listing of a module; without defines, of one that is not needed.
+    fn list_module(
+        &self,
+        module: &ModuleFile,
+        defines: Option<&Defines>,
+    ) -> Result<Listing, Problem> {
+        let listing = match defines {
+            Some(defines) => Listing::new(&module.path, &module.text, defines, true)?,
+            None => Listing::outline(&module.path, &module.text)?,
+        };
         self.check_names(&listing)?;
         Ok(listing)
     }
@@ -213,17 +220,28 @@ impl ShaderComposer {
         let shader = Listing::new(path, text, &values, false)?;
         self.check_names(&shader)?;
         values.extend(shader.defines.clone());
-        let mut wanted: Vec<&str> = imported(&shader, &names);
+        let mut wanted = imported(&shader, &names, true);
+        let mut others = imported(&shader, &names, false);
         let mut modules: Vec<(String, Listing)> = Vec::new();
-        while let Some(name) = wanted.pop() {
+        // Those that lie in branches which are not taken come last: others may import them too.
+        while let Some((name, taken)) = wanted
+            .pop()
+            .map(|name| (name, true))
+            .or_else(|| Some((others.pop()?, false)))
+        {
             if modules.iter().any(|(known, _)| known == name) {
                 continue;
             }
             let Some(module) = self.named(name) else {
                 continue;
             };
-            let listing = self.list_module(module, &values)?;
-            wanted.extend(imported(&listing, &names));
+            let listing = self.list_module(module, taken.then_some(&values))?;
+            if taken {
+                wanted.extend(imported(&listing, &names, true));
+            } else {
+                others.extend(imported(&listing, &names, true));
+            }
+            others.extend(imported(&listing, &names, false));
             modules.push((name.to_owned(), listing));
         }
         Ok(Listings::new(shader, modules))
@@ -311,10 +329,11 @@ impl ShaderComposer {
     }
 }
 
-/// The modules that a file imports, whatever the defines.
-fn imported<'a>(listing: &Listing, modules: &[&'a str]) -> Vec<&'a str> {
+/// The modules that a file imports in branches that are taken, or in those that are not.
+fn imported<'a>(listing: &Listing, modules: &[&'a str], taken: bool) -> Vec<&'a str> {
     let imports = listing.imports.iter();
     imports
+        .filter(|import| import.taken == taken)
         .filter_map(|import| imports::module_of(&import.path, modules))
         .collect()
 }

@@ -59,11 +59,28 @@ impl Listing {
         defines: &Defines,
         is_module: bool,
     ) -> Result<Self, Problem> {
+        Self::read(path, text, Some(defines), is_module)
+    }
+
+    /// Reads a module that no branch which is taken imports: what it imports and asks for itself.
+    ///
+    /// # Errors
+    /// The first mistake in a directive that is one whatever the defines.
+    pub fn outline(path: &str, text: &str) -> Result<Self, Problem> {
+        Self::read(path, text, None, true)
+    }
+
+    fn read(
+        path: &str,
+        text: &str,
+        defines: Option<&Defines>,
+        is_module: bool,
+    ) -> Result<Self, Problem> {
         let text = with_plain_line_ends(text);
         let mut reader = Reader {
             path,
             text: &text,
-            defines: defines.clone(),
+            defines: defines.cloned(),
             is_module,
             branches: Vec::new(),
             imports: Vec::new(),
@@ -97,7 +114,8 @@ struct Branch {
 struct Reader<'a> {
     path: &'a str,
     text: &'a str,
-    defines: Defines,
+    /// `None` where they are not known: then no value is asked for.
+    defines: Option<Defines>,
     is_module: bool,
     branches: Vec<Branch>,
     imports: Vec<Import>,
@@ -205,7 +223,9 @@ impl Reader<'_> {
                 };
                 let value = words.next().and_then(|value| value.parse().ok());
                 self.own.insert(defined.to_owned(), value);
-                self.defines.insert(defined.to_owned(), value);
+                if let Some(defines) = &mut self.defines {
+                    defines.insert(defined.to_owned(), value);
+                }
             }
             "define_import_path" => {}
             unknown => {
@@ -272,7 +292,7 @@ impl Reader<'_> {
                 let hint = format!("to compare values, write `#if {name} == 1`");
                 return Err(self.problem(at.clone(), message, hint));
             }
-            let defined = self.defines.contains_key(name);
+            let defined = self.defines.as_ref().is_some_and(|d| d.contains_key(name));
             return Ok(defined == (directive == "ifdef"));
         }
         let signs = compared
@@ -287,10 +307,10 @@ impl Reader<'_> {
                 format!("write `#if {name} == 1`, or `#ifdef {name}` to ask whether it is there"),
             ));
         }
-        if !asked {
+        let Some(defines) = self.defines.as_ref().filter(|_| asked) else {
             return Ok(false);
-        }
-        let Some(defined) = self.defines.get(name).copied() else {
+        };
+        let Some(defined) = defines.get(name).copied() else {
             let hint = self.how_to_define(name);
             let message = format!("`{name}` is not defined, so it has no value to compare");
             return Err(self.problem(at.clone(), message, hint));
@@ -313,7 +333,8 @@ impl Reader<'_> {
 
     /// The way out where a define is missing.
     fn how_to_define(&self, name: &str) -> String {
-        let known = self.defines.keys().map(String::as_str);
+        let known = self.defines.iter().flat_map(|defines| defines.keys());
+        let known = known.map(String::as_str);
         match suggestion(name, known.clone()) {
             Some(_) => {
                 let near = known
@@ -353,7 +374,11 @@ impl Reader<'_> {
                 ));
             }
             self.mentions.insert(name.clone());
-            if taken && !self.defines.contains_key(&name) {
+            let missing = self
+                .defines
+                .as_ref()
+                .is_some_and(|d| !d.contains_key(&name));
+            if taken && missing {
                 let hint = self.how_to_define(&name);
                 return Err(self.problem(at, format!("`{name}` is not defined"), hint));
             }
