@@ -41,6 +41,20 @@ pub fn check_room(
         }
     }
     for pass in &desc.passes {
+        if let PassKind::Copy { from, to } = &pass.kind
+            && let (Some(a), Some(b)) = (desc.target(&from.target), desc.target(&to.target))
+        {
+            let from = level_size(a, from.mip.unwrap_or(0), size);
+            let to = level_size(b, to.mip.unwrap_or(0), size);
+            let whole = a.format.is_depth() && from != to;
+            if from.0 > to.0 || from.1 > to.1 || whole {
+                return Err(format!(
+                    "with {output}, the pass `{}` ({}) copies {} × {} texels of `{}` to {} × {} of \
+                     `{}`, where they do not fit",
+                    pass.name, pass.at, from.0, from.1, a.name, to.0, to.1, b.name
+                ));
+            }
+        }
         for (name, mip) in levels(pass) {
             let Some(target) = desc.target(name) else {
                 continue;
@@ -70,6 +84,13 @@ fn mip_levels(target: &TargetDesc, size: (u32, u32)) -> u32 {
     target.mips.resolve(width, height, depth)
 }
 
+/// Width and height of a mip level.
+fn level_size(target: &TargetDesc, mip: u32, output: (u32, u32)) -> (u32, u32) {
+    let (width, height) = target.size.resolve(output.0, output.1);
+    let side = |side: u32| side.checked_shr(mip).unwrap_or(0).max(1);
+    (side(width), side(height))
+}
+
 /// The mip levels that a pass names.
 fn levels(pass: &PassDesc) -> impl Iterator<Item = (&str, u32)> {
     let slice = |name, slice: Slice| (name, slice.mip);
@@ -97,6 +118,41 @@ mod tests {
     use super::*;
     use crate::description::{BufferDesc, BufferSize, Read, TargetSize};
     use crate::{Format, Place};
+
+    #[test]
+    fn a_slice_fits_where_it_is_copied_to_or_is_refused() {
+        let at = Place::new("a.rhai", 3, 1);
+        let target = |name: &str, size| TargetDesc {
+            mips: Mips::All,
+            size,
+            ..TargetDesc::new(name, at.clone(), Format(wgpu::TextureFormat::Rgba16Float))
+        };
+        let copy = PassKind::Copy {
+            from: Read {
+                mip: Some(1),
+                ..Read::new("chain", at.clone())
+            },
+            to: Read {
+                mip: Some(0),
+                ..Read::new("small", at.clone())
+            },
+        };
+        let desc = PipelineDesc {
+            targets: vec![
+                target("chain", TargetSize::Relative(1.0)),
+                target("small", TargetSize::Absolute(2, 1)),
+            ],
+            passes: vec![PassDesc::new("take", at.clone(), copy)],
+            ..PipelineDesc::default()
+        };
+        let check = |size| check_room(&desc, &wgpu::Limits::default(), size, 1);
+        assert_eq!(check((5, 3)), Ok(()));
+        let error = check((6, 3)).unwrap_err();
+        assert!(
+            error.contains("3 × 1 texels of `chain` to 2 × 1"),
+            "{error}"
+        );
+    }
 
     #[test]
     fn what_depends_on_the_output_is_checked_for_it() {
