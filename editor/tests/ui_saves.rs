@@ -316,10 +316,13 @@ impl Desk {
         let began = Instant::now();
         loop {
             self.workbench.tick(Instant::now());
+            // A new pipeline is warmed by draws.
+            self.workbench.draw(SIZE, Instant::now());
             let workbench = &self.workbench;
             let busy = workbench.pipelines.is_busy()
                 || workbench.scenes.is_busy()
-                || workbench.library.is_busy();
+                || workbench.library.is_busy()
+                || workbench.pipelines.is_warming();
             if workbench.picture_ready() && !busy {
                 return;
             }

@@ -18,6 +18,7 @@ struct GBuffer {
     @location(3) power: f32,            // log2(p) / 10.5
 }
 
+// The texels of a surface.
 fn pack(s: surface::Surface) -> GBuffer {
     return GBuffer(
         vec4f(s.emissive, 1.0),

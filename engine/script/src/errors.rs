@@ -208,14 +208,15 @@ impl Explainer<'_> {
         }
         if let Some((module, name)) = name.rsplit_once("::") {
             let own = self.sources.functions();
-            if let Some(counts) = self.sources.arguments_of(name) {
-                return Mistake::new(format!(
-                    "`{module}::{name}` does not take {}",
-                    arguments(kinds.len())
-                ))
-                .with_hint(format!("it takes {counts}"));
+            let mistake = Mistake::new(format!(
+                "the module `{module}` has no function `{name}` with {}",
+                arguments(kinds.len())
+            ));
+            let forms = self.sources.forms(name).into_iter();
+            let forms: Vec<String> = forms.map(|form| format!("{module}::{form}")).collect();
+            if !forms.is_empty() {
+                return mistake.with_hint(written(&forms));
             }
-            let mistake = Mistake::new(format!("the module `{module}` has no function `{name}`"));
             return match suggestion(name, own.iter().map(String::as_str)) {
                 Some(hint) => mistake.with_hint(hint),
                 None => mistake,

@@ -8,6 +8,7 @@
 mod layout;
 mod limits;
 mod link;
+mod provided;
 mod resources;
 mod scene;
 mod stages;
@@ -15,65 +16,13 @@ mod stages;
 pub use layout::target_layout;
 pub use limits::check_shader;
 pub use link::{Reflected, check_vertices, link, links_mips};
+pub use provided::{EngineBuffer, Provided, provided};
 
 use crate::description::{PassDesc, PipelineDesc, Slice};
-use crate::gpu_data::ShadowViewData;
 use crate::problem::{Place, Problem, suggestion};
 use crate::reflection::{Reflection, TextureType};
 use crate::shader::Shader;
 use crate::validate::FormatSupport;
-
-/// A buffer that the engine fills.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EngineBuffer {
-    /// Three floats a vertex, all meshes one after the other.
-    MeshPositions,
-    /// Normal, texture coordinates and tangent of each vertex: nine floats.
-    MeshAttributes,
-    /// The smooth group of each vertex, in a byte: four vertices a word, the first in the lowest
-    /// bits. A mesh of more than 256 groups gives some of them the same number.
-    MeshGroups,
-    /// Indices of all meshes.
-    MeshIndices,
-    /// The views of all `shadow` passes: see `shaders/lib/shadow.wgsl`.
-    ShadowViews,
-    /// Of each light the first of its shadow views.
-    LightShadows,
-}
-
-impl EngineBuffer {
-    /// For messages.
-    pub fn in_words(self) -> &'static str {
-        match self {
-            Self::MeshPositions => "vertex positions",
-            Self::MeshAttributes => "normals, texture coordinates and tangents",
-            Self::MeshGroups => "smooth groups",
-            Self::MeshIndices => "indices",
-            Self::ShadowViews => "shadow views",
-            Self::LightShadows => "numbers of shadow views",
-        }
-    }
-
-    /// As a shader declares it.
-    fn in_wgsl(self) -> &'static str {
-        match self {
-            Self::MeshPositions | Self::MeshAttributes => "array<f32>",
-            Self::MeshGroups | Self::MeshIndices | Self::LightShadows => "array<u32>",
-            Self::ShadowViews => "array<shadow::ShadowView>",
-        }
-    }
-
-    /// Bytes that it has in every scene.
-    fn least_bytes(self) -> u64 {
-        match self {
-            // Those of the unit shapes alone are more.
-            Self::MeshPositions | Self::MeshAttributes | Self::MeshGroups | Self::MeshIndices => 64,
-            // One row.
-            Self::ShadowViews => size_of::<ShadowViewData>() as u64,
-            Self::LightShadows => 4,
-        }
-    }
-}
 
 /// Where the resource of one binding of group 1 comes from.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,30 +3,13 @@
 use wgpu::StorageTextureAccess as Access;
 
 use super::limits::free_binding;
-use super::{Binder, EngineBuffer, Source};
+use super::provided::{ENGINE_BUFFERS, SAMPLERS};
+use super::{Binder, Source};
 use crate::description::{BufferDesc, Read, Update};
 use crate::layout::SAMPLER_BINDING;
 use crate::problem::{nearest, suggestion};
 use crate::reflection::{BindingKind, SampleKind, TextureType, Variable};
 use crate::validate::FormatSupport;
-
-/// The samplers that a shader gets by declaring a `sampler` of that name in group 1.
-const SAMPLERS: [(&str, Source); 3] = [
-    ("linear_sampler", Source::LinearSampler),
-    ("nearest_sampler", Source::NearestSampler),
-    ("depth_sampler", Source::DepthSampler),
-];
-
-/// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
-/// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 6] = [
-    ("mesh_positions", EngineBuffer::MeshPositions),
-    ("mesh_attributes", EngineBuffer::MeshAttributes),
-    ("mesh_groups", EngineBuffer::MeshGroups),
-    ("mesh_indices", EngineBuffer::MeshIndices),
-    ("shadow_views", EngineBuffer::ShadowViews),
-    ("light_shadows", EngineBuffer::LightShadows),
-];
 
 impl<S: FormatSupport> Binder<'_, S> {
     /// Where the resource of each binding comes from.
@@ -96,7 +79,10 @@ impl<S: FormatSupport> Binder<'_, S> {
                 return None;
             }
             let names = pass.reads.iter().map(|read| read.variable.as_str());
-            let hint = suggestion(name, names)
+            // Buffers of the engine need no .reads.
+            let is_buffer = matches!(variable.kind, BindingKind::Buffer { .. });
+            let engine = ENGINE_BUFFERS.iter().filter(|_| is_buffer);
+            let hint = suggestion(name, names.chain(engine.map(|(name, _)| *name)))
                 .unwrap_or_else(|| format!("add .reads(\"{name}\") to the pass"));
             self.report(
                 &variable.at,

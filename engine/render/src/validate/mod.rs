@@ -4,6 +4,7 @@
 //! shaders can tell is checked in [`crate::binding`], after they are composed.
 
 mod attachments;
+mod every_adapter;
 mod kinds;
 mod order;
 mod resources;
@@ -16,6 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::description::{PipelineDesc, TargetDesc};
 use crate::problem::{Place, Problem, Problems, nearest, suggestion};
 
+pub use every_adapter::EveryAdapter;
 pub use support::FormatSupport;
 
 /// Checks the description.
