@@ -322,7 +322,8 @@ impl Desk {
             let busy = workbench.pipelines.is_busy()
                 || workbench.scenes.is_busy()
                 || workbench.library.is_busy()
-                || workbench.pipelines.is_warming();
+                || workbench.pipelines.is_warming()
+                || !workbench.picture_is_current();
             if workbench.picture_ready() && !busy {
                 return;
             }
@@ -333,7 +334,7 @@ impl Desk {
 
     /// What is on screen.
     fn picture(&mut self) -> Vec<u8> {
-        let picture = self.workbench.draw(SIZE, Instant::now()).unwrap();
+        let picture = self.workbench.picture().unwrap();
         read_bytes(self.workbench.gpu(), &picture.texture).unwrap()
     }
 
