@@ -77,7 +77,7 @@ const PLANTED: [Planted; 14] = [
         "shaders/output.wgsl",
         "@fragment",
         "@vertex",
-        "`fragment_main`",
+        "`@builtin(position)` does not exist here",
     ),
     (
         "shaders/output.wgsl",
