@@ -83,13 +83,13 @@ const PLANTED: [Planted; 14] = [
         "shaders/output.wgsl",
         "var hdr: texture_2d<f32>",
         "var hdr: texture_2d<u32>",
-        "declare it as texture_2d<f32>",
+        "argument 1 is `vec3u`: give all the same type",
     ),
     (
         "shaders/deferred_shading/light.wgsl",
         "@interpolate(flat) light: u32",
         "@interpolate(flat) light: f32",
-        "the vertex stage gives u32 there",
+        "an element is chosen by a whole number, not by `f32`",
     ),
     (
         "shaders/deferred_shading/light.wgsl",
@@ -155,16 +155,16 @@ const PLANTED: [Planted; 14] = [
 
 fn planted_mistakes(desk: &mut Desk) {
     let good = desk.picture();
+    let mut wrong = Vec::new();
     for (file, from, to, said) in PLANTED {
         let text = desk.text(file);
         assert!(text.contains(from), "`{from}` is not in {file}");
         desk.save(file, &text.replacen(from, to, 1));
         assert!(desk.picture() == good, "{file}, {to}: the picture changed");
         let explained = desk.explanation();
-        assert!(
-            explained.contains(said),
-            "{file}, {to}: `{said}` is not in\n{explained}"
-        );
+        if !explained.contains(said) {
+            wrong.push(format!("{file}, {to}: `{said}` is not in\n{explained}"));
+        }
         desk.save(file, &text);
         assert_eq!(desk.explanation(), "", "{file} is good again");
         assert!(
@@ -172,6 +172,7 @@ fn planted_mistakes(desk: &mut Desk) {
             "{file} is good again, the picture is not"
         );
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Files cut off anywhere, empty, and full of what is no text.

@@ -212,6 +212,25 @@ pub(super) fn explain(error: &ParseError, file: &File) -> Problem {
             _ => problem,
         };
     }
+    if let Some((number, name)) = two(
+        message.trim_end_matches('`'),
+        "inconsistent type passed as argument #",
+        " to `",
+    ) {
+        let mut notes = error.notes().map(plain);
+        let first = notes.find_map(|note| {
+            let (index, ty) = two(&note, "Because argument #", " has type ")?;
+            let ty = ty.split(',').next().unwrap_or(ty);
+            Some(format!(
+                "argument {index} is `{ty}`: give all the same type"
+            ))
+        });
+        let mut problem = problem(format!(
+            "argument {number} of `{name}` does not fit the others"
+        ));
+        problem.hint = first;
+        return problem;
+    }
     if message.starts_with("atomic variables cannot be accessed directly") {
         return problem("an atomic is read and written by functions alone".to_owned()).with_hint(
             "as in `atomicLoad(&count)`, `atomicStore(&count, 0u)` or `atomicAdd(&count, 1u)`",
