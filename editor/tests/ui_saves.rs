@@ -111,9 +111,9 @@ const PLANTED: [Planted; 14] = [
     ),
     (
         "shaders/lib/scene.wgsl",
-        "    near: f32,",
-        "    nearest: f32,",
-        "shaders/lib/",
+        "    camera_position: vec3f,",
+        "    camera_place: vec3f,",
+        "there is no `.camera_position` here",
     ),
     (
         "shaders/vertex/geometry.wgsl",
@@ -185,8 +185,8 @@ fn half_written_files(desk: &mut Desk) {
         "scripts/pipelines/parts/g_buffer.rhai",
     ] {
         let text = desk.text(file);
-        // All that follows the last word may be missing without harm.
-        let most = text.trim_end().len() - 1;
+        // All that follows the last parenthesis may be missing without harm.
+        let most = text.rfind(')').unwrap();
         let cuts = (0..6).map(|cut| {
             let end = (0..=most * cut / 5)
                 .rev()
