@@ -5,6 +5,7 @@ use std::panic;
 use std::process::ExitCode;
 use std::str::FromStr as _;
 
+use lightbench::render::guard;
 use tracing_subscriber::filter::Targets;
 use tracing_subscriber::prelude::*;
 
@@ -36,6 +37,10 @@ pub fn start_log() {
 /// Runs the program. A fault in it is told in a sentence instead of a trace.
 pub fn catch(run: impl FnOnce() -> ExitCode + panic::UnwindSafe) -> ExitCode {
     panic::set_hook(Box::new(|fault| {
+        if guard::is_caught() {
+            // Who called the library that failed tells it in words of its own.
+            return;
+        }
         let payload = fault.payload();
         let message = payload
             .downcast_ref::<&str>()

@@ -136,6 +136,7 @@ fn view(source: &Source, targets: &Targets) -> Option<wgpu::TextureView> {
             texture,
             mip,
             layer,
+            ..
         } => Some(
             targets
                 .get(target)?

@@ -323,6 +323,32 @@ impl Gpu {
             .map_or(Ok(()), |error| Err(GpuError::Driver(error)))
     }
 
+    /// The optional parts of WGSL that the device has.
+    pub fn capabilities(&self) -> naga::valid::Capabilities {
+        use naga::valid::Capabilities;
+        use wgpu::DownlevelFlags;
+        let flags = self.adapter.get_downlevel_capabilities().flags;
+        [
+            (
+                DownlevelFlags::SHADER_F16_IN_F32,
+                Capabilities::SHADER_FLOAT16_IN_FLOAT32,
+            ),
+            (
+                DownlevelFlags::MULTISAMPLED_SHADING,
+                Capabilities::MULTISAMPLED_SHADING,
+            ),
+            (
+                DownlevelFlags::CUBE_ARRAY_TEXTURES,
+                Capabilities::CUBE_ARRAY_TEXTURES,
+            ),
+        ]
+        .into_iter()
+        .filter(|(flag, _)| flags.contains(*flag))
+        .fold(Capabilities::empty(), |all, (_, capability)| {
+            all | capability
+        })
+    }
+
     /// Whether the device can clamp depth instead of cutting faces off at the near and far plane.
     pub fn clamps_depth(&self) -> bool {
         self.device

@@ -321,6 +321,7 @@ fn plain_shader(path: &str, at: &Place) -> ShaderDesc {
         path: path.to_owned(),
         at: at.clone(),
         defines: Vec::new(),
+        define_places: Vec::new(),
     }
 }
 

@@ -3,6 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
+use lightbench_assets::files::Files;
+
+use crate::shader::with_plain_line_ends;
+
 /// A position in a file that a person wrote. Lines and columns start at 1; 0 means unknown.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Place {
@@ -119,23 +123,51 @@ impl fmt::Display for Problems {
     }
 }
 
+impl Problems {
+    /// Adds the offending lines, read from the files that the problems name.
+    #[must_use]
+    pub fn with_sources(mut self, files: &Files) -> Self {
+        for problem in &mut self.0 {
+            if problem.source_line.is_none()
+                && problem.place.line > 0
+                && let Ok(text) = files.read_text(&problem.place.file)
+            {
+                *problem = problem.clone().with_source(&with_plain_line_ends(&text));
+            }
+        }
+        self
+    }
+}
+
 impl From<Problem> for Problems {
     fn from(problem: Problem) -> Self {
         Self(vec![problem])
     }
 }
 
-/// "did you mean `x`?" for the candidate nearest to a misspelt name, if one is near enough.
-///
-/// Nearness is the number of slips of the finger; at most one for three letters.
+/// "did you mean `x`?" for the candidate that is [`nearest`], if there is one.
 pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let limit = (name.chars().count() / 3).max(1);
-    candidates
-        .into_iter()
-        .map(|candidate| (edit_distance(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= limit)
-        .min()
-        .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
+    nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
+}
+
+/// The candidate that a misspelt name probably means.
+///
+/// Nearness is the number of slips of the finger; at most one for three letters. Where nothing is so
+/// near, a candidate of which the name is the end: `normal` may mean `g_normal`.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    const WORD: usize = 4;
+    let length = name.chars().count();
+    let limit = (length / 3).max(1);
+    let rank = |candidate: &'a str| {
+        let distance = edit_distance(name, candidate);
+        if distance <= limit {
+            return Some((distance, candidate));
+        }
+        let part = length >= WORD && candidate.ends_with(name);
+        part.then_some((limit + distance, candidate))
+    };
+    let ranked = candidates.into_iter().filter_map(rank);
+    ranked.min().map(|(_, candidate)| candidate)
 }
 
 /// How many letters must be changed, added, left out or swapped with their neighbour to turn one
@@ -181,6 +213,8 @@ mod tests {
             Some("did you mean `depth`?")
         );
         assert_eq!(suggestion("shadow", names), None);
+        assert_eq!(nearest("normal", names), Some("g_normal"));
+        assert_eq!(nearest("mal", names), None);
         for (a, b, distance) in [("", "abc", 3), ("ca", "ac", 1), ("abcd", "badc", 2)] {
             assert_eq!(edit_distance(a, b), distance);
             assert_eq!(edit_distance(b, a), distance);

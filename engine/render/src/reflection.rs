@@ -1,15 +1,18 @@
-//! What a composed shader asks for: bindings, parameters, vertex inputs and fragment outputs.
+//! What a composed shader asks for: entry points, variables, parameters.
+
+mod entry;
+mod variable;
 
 use std::collections::BTreeSet;
 
-use naga::{
-    AddressSpace, Binding, ImageClass, ImageDimension, ScalarKind, ShaderStage, StorageAccess,
-    TypeInner,
-};
+use naga::{ScalarKind, ShaderStage};
 
 use crate::description::{Shape, TargetDesc};
-use crate::format::Format;
-use crate::shader::undecorate;
+use crate::problem::Place;
+use crate::shader::{Shader, undecorate};
+
+pub use entry::{EntryPoint, NumberType, Varying};
+pub use variable::{BindingKind, ParameterMember, Variable};
 
 /// The kind of numbers in a texture or a fragment output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -99,56 +102,15 @@ impl TextureType {
     }
 }
 
-/// What a variable of group 1 is.
+/// A constant that is given its value when a pipeline is built.
 #[derive(Clone, Debug, PartialEq)]
-pub enum BindingKind {
-    /// A texture that is read.
-    Texture(TextureType),
-    /// A texture that is written, or read, without filtering.
-    StorageTexture {
-        /// How its texels are arranged.
-        dimension: wgpu::TextureViewDimension,
-        /// The format that the shader declares.
-        format: Option<Format>,
-        /// Read, write or both.
-        access: wgpu::StorageTextureAccess,
-    },
-    /// A `var<storage>`.
-    Buffer {
-        /// Whether it is `read_write`.
-        writable: bool,
-    },
-    /// A sampler.
-    Sampler {
-        /// Whether it compares depth.
-        comparison: bool,
-    },
-    /// Something that passes can't bind; its WGSL type in words.
-    Unsupported(&'static str),
-}
-
-/// A variable of group 1.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TargetBinding {
-    /// The variable's name.
+pub struct OverrideConstant {
+    /// Its name.
     pub name: String,
-    /// Its binding number.
-    pub binding: u32,
-    /// What it is.
-    pub kind: BindingKind,
-    /// Byte offset of its declaration in the composed text, if known.
-    pub span: Option<usize>,
-}
-
-/// A member of the parameter structure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ParameterMember {
-    /// The parameter's name.
-    pub name: String,
-    /// Byte offset.
-    pub offset: u32,
-    /// `f32` or `u32`; anything else is `None`.
-    pub kind: Option<SampleKind>,
+    /// Where it is declared.
+    pub at: Place,
+    /// Whether it has a value of its own.
+    pub has_value: bool,
 }
 
 /// Everything that a pass must know of its shader.
@@ -160,30 +122,16 @@ pub struct Reflection {
     pub has_fragment: bool,
     /// The workgroup size of `compute_main`, if there is one.
     pub workgroup_size: Option<[u32; 3]>,
-    /// Names of all entry points, for suggestions.
-    pub entry_points: Vec<String>,
-    /// Locations that the vertex stage hands on, and those that the fragment stage takes.
-    pub varyings: (BTreeSet<u32>, BTreeSet<u32>),
-    /// Locations that the vertex stage reads.
+    /// Locations that `vertex_main` reads.
     pub vertex_inputs: BTreeSet<u32>,
-    /// Location and kind of each fragment output, by location.
-    pub outputs: Vec<(u32, SampleKind)>,
-    /// Group 1.
-    pub bindings: Vec<TargetBinding>,
+    /// All entry points, whatever their names.
+    pub entry_points: Vec<EntryPoint>,
+    /// All variables that are bound, by group and binding.
+    pub variables: Vec<Variable>,
     /// Members of `@group(2) @binding(0) var<uniform> parameters`, and the structure's size.
     pub parameters: Option<(Vec<ParameterMember>, u32)>,
-}
-
-impl Reflection {
-    /// Adds the bindings that another variant of the same shader has beyond these.
-    pub fn add_bindings(&mut self, variant: &Self) {
-        for binding in &variant.bindings {
-            if !self.bindings.iter().any(|b| b.binding == binding.binding) {
-                self.bindings.push(binding.clone());
-            }
-        }
-        self.bindings.sort_by_key(|binding| binding.binding);
-    }
+    /// Override constants.
+    pub overrides: Vec<OverrideConstant>,
 }
 
 /// The entry points that every pass uses.
@@ -193,94 +141,99 @@ pub const FRAGMENT_ENTRY: &str = "fragment_main";
 /// See [`VERTEX_ENTRY`].
 pub const COMPUTE_ENTRY: &str = "compute_main";
 
-/// Reads a module.
-pub fn reflect(module: &naga::Module) -> Reflection {
-    let mut reflection = Reflection::default();
-    for entry in &module.entry_points {
-        reflection.entry_points.push(entry.name.clone());
-        match entry.stage {
-            ShaderStage::Vertex if entry.name == VERTEX_ENTRY => {
-                reflection.has_vertex = true;
-                for argument in &entry.function.arguments {
-                    locations(
-                        module,
-                        argument.ty,
-                        argument.binding.as_ref(),
-                        &mut |location, _| {
-                            reflection.vertex_inputs.insert(location);
-                        },
-                    );
-                }
-                if let Some(result) = &entry.function.result {
-                    let binding = result.binding.as_ref();
-                    locations(module, result.ty, binding, &mut |location, _| {
-                        reflection.varyings.0.insert(location);
-                    });
-                }
-            }
-            ShaderStage::Fragment if entry.name == FRAGMENT_ENTRY => {
-                reflection.has_fragment = true;
-                for argument in &entry.function.arguments {
-                    let binding = argument.binding.as_ref();
-                    locations(module, argument.ty, binding, &mut |location, _| {
-                        reflection.varyings.1.insert(location);
-                    });
-                }
-                if let Some(result) = &entry.function.result {
-                    locations(
-                        module,
-                        result.ty,
-                        result.binding.as_ref(),
-                        &mut |location, kind| {
-                            reflection.outputs.push((location, kind));
-                        },
-                    );
-                }
-                reflection.outputs.sort_by_key(|(location, _)| *location);
-            }
-            ShaderStage::Compute if entry.name == COMPUTE_ENTRY => {
-                reflection.workgroup_size = Some(entry.workgroup_size);
-            }
-            _ => {}
-        }
+impl Reflection {
+    /// The entry point of that name and stage.
+    pub fn entry(&self, name: &str, stage: ShaderStage) -> Option<&EntryPoint> {
+        let mut entries = self.entry_points.iter();
+        entries.find(|entry| entry.name == name && entry.stage == stage)
     }
-    for (handle, global) in module.global_variables.iter() {
-        let Some(binding) = &global.binding else {
-            continue;
-        };
-        // Variables of imported modules have decorated names.
-        let name = undecorate(global.name.as_deref().unwrap_or_default());
-        let inner = &module.types[global.ty].inner;
-        match (binding.group, binding.binding) {
-            (1, number) => reflection.bindings.push(TargetBinding {
-                name,
-                binding: number,
-                kind: binding_kind(inner, global.space),
-                span: module
-                    .global_variables
-                    .get_span(handle)
-                    .to_range()
-                    .map(|range| range.start),
-            }),
-            (2, 0) => {
-                if let TypeInner::Struct { members, span } = inner {
-                    let members = members.iter().map(|member| ParameterMember {
-                        name: member.name.clone().unwrap_or_default(),
-                        offset: member.offset,
-                        kind: match &module.types[member.ty].inner {
-                            TypeInner::Scalar(scalar) if scalar.width == 4 => {
-                                scalar_kind(scalar.kind)
-                            }
-                            _ => None,
-                        },
-                    });
-                    reflection.parameters = Some((members.collect(), *span));
+
+    /// The variable at a group and binding.
+    pub fn variable(&self, group: u32, binding: u32) -> Option<&Variable> {
+        let mut variables = self.variables.iter();
+        variables.find(|variable| (variable.group, variable.binding) == (group, binding))
+    }
+
+    /// Adds what another variant of the same shader asks for beyond this one.
+    ///
+    /// # Errors
+    /// A variable of the other variant that is bound where this one binds something else.
+    pub fn add_variant(&mut self, other: &Self) -> Result<(), Place> {
+        for theirs in &other.variables {
+            let at = (theirs.group, theirs.binding);
+            let mut own = self.variables.iter_mut();
+            match own.find(|own| (own.group, own.binding) == at) {
+                None => self.variables.push(theirs.clone()),
+                Some(own) if (&own.name, &own.kind) == (&theirs.name, &theirs.kind) => {
+                    own.bytes = own.bytes.max(theirs.bytes);
+                }
+                Some(_) => return Err(theirs.at.clone()),
+            }
+        }
+        self.variables
+            .sort_by_key(|variable| (variable.group, variable.binding));
+        match (&self.parameters, &other.parameters) {
+            (None, theirs) => self.parameters = theirs.clone(),
+            (Some((own, size)), Some((theirs, other_size))) => {
+                let alike = |(own, theirs): (&ParameterMember, &ParameterMember)| {
+                    (&own.name, own.offset, own.kind) == (&theirs.name, theirs.offset, theirs.kind)
+                };
+                let mut pairs = own.iter().zip(theirs);
+                if own.len() != theirs.len() || size != other_size || !pairs.all(alike) {
+                    let different = theirs.iter().zip(own).find(|(a, b)| !alike((b, a)));
+                    let place = different.map(|(theirs, _)| theirs).or(theirs.last());
+                    return Err(place.map(|member| member.at.clone()).unwrap_or_default());
                 }
             }
-            _ => {}
+            (Some(_), None) => {}
         }
+        for theirs in &other.entry_points {
+            let mut own = self.entry_points.iter_mut();
+            if let Some(own) = own.find(|own| own.stage == theirs.stage) {
+                own.samples.extend(&theirs.samples);
+            }
+        }
+        Ok(())
     }
-    reflection.bindings.sort_by_key(|binding| binding.binding);
+
+    /// What the pipeline provides: targets, buffers and samplers.
+    pub fn targets(&self) -> impl Iterator<Item = &Variable> {
+        self.variables.iter().filter(|variable| variable.group == 1)
+    }
+}
+
+/// Looks through a shader.
+pub fn reflect(shader: &Shader) -> Reflection {
+    let Shader {
+        module, listings, ..
+    } = shader;
+    let entry_points = entry::entry_points(shader);
+    let mut variables = variable::variables(module, listings);
+    variables.sort_by_key(|variable| (variable.group, variable.binding));
+    let overrides = module.overrides.iter().map(|(_, constant)| {
+        let name = constant.name.as_deref().unwrap_or_default();
+        OverrideConstant {
+            name: undecorate(name),
+            at: listings.override_constant(name),
+            has_value: constant.init.is_some(),
+        }
+    });
+    let mut reflection = Reflection {
+        entry_points,
+        variables,
+        parameters: variable::parameters(module, listings),
+        overrides: overrides.collect(),
+        ..Reflection::default()
+    };
+    reflection.has_fragment = reflection
+        .entry(FRAGMENT_ENTRY, ShaderStage::Fragment)
+        .is_some();
+    let compute = reflection.entry(COMPUTE_ENTRY, ShaderStage::Compute);
+    reflection.workgroup_size = compute.map(|entry| entry.workgroup_size);
+    if let Some(vertex) = reflection.entry(VERTEX_ENTRY, ShaderStage::Vertex) {
+        reflection.vertex_inputs = vertex.inputs.iter().map(|input| input.location).collect();
+        reflection.has_vertex = true;
+    }
     reflection
 }
 
@@ -293,142 +246,5 @@ fn scalar_kind(kind: ScalarKind) -> Option<SampleKind> {
     }
 }
 
-fn binding_kind(inner: &TypeInner, space: AddressSpace) -> BindingKind {
-    match inner {
-        TypeInner::Image {
-            dim,
-            arrayed,
-            class,
-        } => image_kind(*dim, *arrayed, *class),
-        TypeInner::Sampler { comparison } => BindingKind::Sampler {
-            comparison: *comparison,
-        },
-        _ => match space {
-            AddressSpace::Storage { access } => BindingKind::Buffer {
-                writable: access.contains(StorageAccess::STORE),
-            },
-            AddressSpace::Uniform => BindingKind::Unsupported("uniform buffer"),
-            _ => BindingKind::Unsupported("variable of another kind"),
-        },
-    }
-}
-
-fn image_kind(dimension: ImageDimension, arrayed: bool, class: ImageClass) -> BindingKind {
-    let dimension = match (dimension, arrayed) {
-        (ImageDimension::D2, false) => wgpu::TextureViewDimension::D2,
-        (ImageDimension::D2, true) => wgpu::TextureViewDimension::D2Array,
-        (ImageDimension::Cube, false) => wgpu::TextureViewDimension::Cube,
-        (ImageDimension::D3, _) => wgpu::TextureViewDimension::D3,
-        (ImageDimension::D1, _) => return BindingKind::Unsupported("1D texture"),
-        (ImageDimension::Cube, true) => return BindingKind::Unsupported("cube array"),
-    };
-    let texture = |kind, multisampled| {
-        BindingKind::Texture(TextureType {
-            kind,
-            dimension,
-            multisampled,
-        })
-    };
-    match class {
-        ImageClass::Sampled { kind, multi } => scalar_kind(kind).map_or(
-            BindingKind::Unsupported("texture of another kind"),
-            |kind| texture(kind, multi),
-        ),
-        ImageClass::Depth { multi } => texture(SampleKind::Depth, multi),
-        ImageClass::Storage { format, access } => BindingKind::StorageTexture {
-            dimension,
-            // naga and wgpu give formats the same names.
-            format: Format::from_rust_name(&format!("{format:?}")),
-            access: match (
-                access.contains(StorageAccess::LOAD),
-                access.contains(StorageAccess::STORE),
-            ) {
-                (true, false) => wgpu::StorageTextureAccess::ReadOnly,
-                (true, true) => wgpu::StorageTextureAccess::ReadWrite,
-                _ => wgpu::StorageTextureAccess::WriteOnly,
-            },
-        },
-        _ => BindingKind::Unsupported("texture of another kind"),
-    }
-}
-
-/// Calls `found` for every `@location` of a type, looking into structures.
-fn locations(
-    module: &naga::Module,
-    ty: naga::Handle<naga::Type>,
-    binding: Option<&Binding>,
-    found: &mut impl FnMut(u32, SampleKind),
-) {
-    if let Some(Binding::Location { location, .. }) = binding {
-        let kind = match &module.types[ty].inner {
-            TypeInner::Scalar(scalar) | TypeInner::Vector { scalar, .. } => {
-                scalar_kind(scalar.kind)
-            }
-            _ => None,
-        };
-        found(*location, kind.unwrap_or(SampleKind::Float));
-    } else if let TypeInner::Struct { members, .. } = &module.types[ty].inner {
-        for member in members {
-            locations(module, member.ty, member.binding.as_ref(), found);
-        }
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    #[test]
-    fn finds_bindings_parameters_inputs_and_outputs() {
-        let module = naga::front::wgsl::parse_str(
-            "struct Parameters { exposure: f32, curve: u32 }
-             struct Out { @location(1) b: vec2u, @location(0) a: vec4f }
-             @group(1) @binding(3) var g_normal: texture_2d<u32>;
-             @group(1) @binding(0) var depth: texture_depth_2d;
-             @group(2) @binding(0) var<uniform> parameters: Parameters;
-             @vertex fn vertex_main(@location(2) uv: vec2f) -> @builtin(position) vec4f { return vec4f(uv, 0, 1); }
-             @fragment fn fragment_main() -> Out { return Out(vec2u(0), vec4f(parameters.exposure)); }",
-        )
-        .unwrap();
-        let found = reflect(&module);
-        assert_eq!(found.vertex_inputs, BTreeSet::from([2]));
-        assert_eq!(
-            found.outputs,
-            [(0, SampleKind::Float), (1, SampleKind::Uint)]
-        );
-        let flat = |kind| {
-            BindingKind::Texture(TextureType {
-                kind,
-                dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            })
-        };
-        let bindings: Vec<_> = found
-            .bindings
-            .iter()
-            .map(|b| (b.name.as_str(), b.binding, &b.kind))
-            .collect();
-        assert_eq!(
-            bindings,
-            [
-                ("depth", 0, &flat(SampleKind::Depth)),
-                ("g_normal", 3, &flat(SampleKind::Uint)),
-            ]
-        );
-        // What another variant asks for beside them comes in its place.
-        let variant = naga::front::wgsl::parse_str(
-            "@group(1) @binding(2) var<storage, read> mesh_groups: array<u32>;
-             @group(1) @binding(3) var g_normal: texture_2d<u32>;",
-        );
-        let mut both = found.clone();
-        both.add_bindings(&reflect(&variant.unwrap()));
-        let numbers: Vec<u32> = both.bindings.iter().map(|b| b.binding).collect();
-        assert_eq!(numbers, [0, 2, 3]);
-        let (members, size) = found.parameters.unwrap();
-        assert_eq!(
-            (members[1].name.as_str(), members[1].offset, size),
-            ("curve", 4, 8)
-        );
-    }
-}
+mod tests;

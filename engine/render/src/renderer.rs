@@ -20,9 +20,10 @@ use crate::problem::Problem;
 use crate::queries::{Measured, Queries};
 use crate::readback::{TargetImage, read_bytes, read_image};
 use crate::record::{Recording, is_cold, measures, record, warm};
+use crate::room::check_room;
 use crate::scene::{Scene, Uploads};
 use crate::statistics::FrameStatistics;
-use crate::targets::Target;
+use crate::targets::{Target, Targets};
 use crate::variant::Variants;
 use crate::view::View;
 
@@ -81,6 +82,9 @@ pub enum RenderError {
     /// The scene does not fit the device.
     #[error("{0}")]
     Scene(String),
+    /// The pipeline can't be drawn at the size.
+    #[error("{0}")]
+    Room(String),
     /// The scene has meshes that the pipeline was not compiled for.
     #[error("the pipeline is not built yet for all meshes of the scene")]
     NotBuilt(Variants),
@@ -343,6 +347,13 @@ impl Renderer {
 
         let started = Instant::now();
         let lights = self.scene.lights().len() as u32;
+        let same = |targets: &Targets| targets.size == (width, height) && lights <= targets.lights;
+        if !pipeline.targets().is_some_and(same) {
+            let limits = self.gpu.device.limits();
+            let room = lights.next_power_of_two();
+            check_room(&pipeline.desc, &limits, (width, height), room)
+                .map_err(RenderError::Room)?;
+        }
         self.scene.upload_views(&self.frame);
         let engine = self.scene.engine_buffers();
         let most = self.gpu.device.limits().max_storage_buffer_binding_size;

@@ -3,6 +3,7 @@
 use crate::description::{BufferDesc, PipelineDesc, Shape, Slice, TargetDesc};
 use crate::gpu::Gpu;
 use crate::life::Lives;
+use crate::validate::FormatSupport as _;
 
 /// One target's texture.
 #[derive(Clone, Debug)]
@@ -282,7 +283,8 @@ fn allocate_buffer(gpu: &Gpu, desc: &BufferDesc, words: u64) -> PipelineBuffer {
         name: desc.name.clone(),
         buffer: gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(&desc.name),
-            size: words * 4,
+            // A buffer that grows may ask for more than the device binds.
+            size: (words * 4).min(gpu.buffer_bytes() / 4 * 4),
             usage: wgpu::BufferUsages::STORAGE
                 | wgpu::BufferUsages::INDIRECT
                 | wgpu::BufferUsages::COPY_SRC

@@ -162,10 +162,14 @@ impl Explainer<'_> {
     pub(crate) fn no_variable(&self, name: &str, file: &str) -> Mistake {
         let source = self.sources.get(file).unwrap_or_default();
         if source.variables.iter().any(|known| known == name) {
-            return Mistake::new(format!("`{name}` is not known here")).with_hint(format!(
+            let mut hint = format!(
                 "a function does not see the variables around it: hand `{name}` over as an \
-                     argument, make it a `const` above, or keep it as `state.{name}`"
-            ));
+                 argument, or make it a `const` above"
+            );
+            if self.globals.contains(&"state") {
+                hint += &format!(", or keep it as `state.{name}`");
+            }
+            return Mistake::new(format!("`{name}` is not known here")).with_hint(hint);
         }
         let mistake = Mistake::new(format!("there is no variable `{name}`"));
         let known = source
@@ -174,9 +178,15 @@ impl Explainer<'_> {
             .map(String::as_str)
             .chain(self.globals.iter().copied());
         let is_function = !self.names.forms(None, name).is_empty() || self.names.is_builtin(name);
+        let declares = |method: &&str| source.text.contains(&format!(".{method}(\"{name}\""));
         if is_function {
             mistake.with_hint(format!(
                 "`{name}` is a function: call it, as in `{name}(…)`"
+            ))
+        } else if let Some(method) = ["number", "switch", "choice"].into_iter().find(declares) {
+            mistake.with_hint(format!(
+                "`.{method}` gives the value of the parameter: keep it, as in \
+                 `let {name} = p.{method}(\"{name}\", …);`"
             ))
         } else if let Some(hint) = suggestion(name, known) {
             mistake.with_hint(hint)
@@ -379,7 +389,7 @@ pub(crate) fn without_position(text: &str) -> String {
     }
 }
 
-fn arguments(count: usize) -> String {
+pub(crate) fn arguments(count: usize) -> String {
     match count {
         0 => "no argument".to_owned(),
         1 => "one argument".to_owned(),

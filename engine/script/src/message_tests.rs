@@ -376,6 +376,7 @@ fn every_function_of_numbers_is_tried_with_both() {
         "animate_rotation",
         "animate_scale",
         "animation_repeat",
+        "clip_volume",
         "load_gltf",
         "load_model",
         "model_mesh",

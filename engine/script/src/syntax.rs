@@ -17,12 +17,20 @@ pub(crate) fn explain(explainer: &Explainer, cause: &ParseErrorType, at: Place) 
         P::BadInput(cause) => lexical(explainer, cause),
         P::UnknownOperator(symbol) => symbol_of_other_language(symbol),
         P::MissingToken(token, purpose) => {
-            let mistake = Mistake::new(format!("a `{token}` is missing {purpose}"));
+            let purpose = purpose.replace(
+                "to terminate this statement",
+                "at the end of this statement",
+            );
+            let mut mistake = Mistake::new(format!("a `{token}` is missing {purpose}"));
+            let line = at.line;
             let at = if matches!(token.as_str(), ";" | ")" | "]" | ",") {
                 end_of_previous_line(explainer, at)
             } else {
                 at
             };
+            if token == ";" && at.line == line {
+                mistake = mistake.with_hint("or a `.`, if what follows belongs to it");
+            }
             return problem(at, mistake);
         }
         P::VariableUndefined(name) => explainer.no_variable(name, &file),

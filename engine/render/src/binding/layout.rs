@@ -15,16 +15,13 @@ pub fn target_layout(
     if sources.is_empty() {
         return None;
     }
-    let filters = sources
-        .iter()
-        .any(|(_, source)| *source == Source::LinearSampler);
     let compute = matches!(pass.kind, PassKind::Compute(_));
     let entries: Vec<_> = sources
         .iter()
         .map(|(binding, source)| wgpu::BindGroupLayoutEntry {
             binding: *binding,
             visibility: visibility(source, compute),
-            ty: binding_type(gpu, source, desc, filters),
+            ty: binding_type(source, desc),
             count: None,
         })
         .collect();
@@ -37,7 +34,8 @@ pub fn target_layout(
     )
 }
 
-fn visibility(source: &Source, compute: bool) -> wgpu::ShaderStages {
+/// The stages of a pass that see a binding.
+pub(super) fn visibility(source: &Source, compute: bool) -> wgpu::ShaderStages {
     match source {
         _ if compute => wgpu::ShaderStages::COMPUTE,
         // Vertex stages can't write on every adapter.
@@ -48,30 +46,18 @@ fn visibility(source: &Source, compute: bool) -> wgpu::ShaderStages {
     }
 }
 
-fn binding_type(
-    gpu: &Gpu,
-    source: &Source,
-    desc: &PipelineDesc,
-    filters: bool,
-) -> wgpu::BindingType {
+fn binding_type(source: &Source, desc: &PipelineDesc) -> wgpu::BindingType {
     match source {
         Source::Target {
-            target, texture, ..
+            texture, filtered, ..
         } => wgpu::BindingType::Texture {
             sample_type: match texture.kind {
                 SampleKind::Depth => wgpu::TextureSampleType::Depth,
                 SampleKind::Uint => wgpu::TextureSampleType::Uint,
                 SampleKind::Sint => wgpu::TextureSampleType::Sint,
-                SampleKind::Float => {
-                    let format = desc.target(target).map(|target| target.format.0);
-                    let features = gpu.device.features();
-                    let native = format.and_then(|f| f.sample_type(None, Some(features)));
-                    let filterable =
-                        native == Some(wgpu::TextureSampleType::Float { filterable: true });
-                    wgpu::TextureSampleType::Float {
-                        filterable: filters && filterable && !texture.multisampled,
-                    }
-                }
+                SampleKind::Float => wgpu::TextureSampleType::Float {
+                    filterable: *filtered,
+                },
             },
             view_dimension: texture.dimension,
             multisampled: texture.multisampled,

@@ -1,6 +1,7 @@
 //! What a shader gets in group 1 by declaring it, without a word of the pipeline.
 
 use super::Source;
+use crate::gpu_data::ShadowViewData;
 
 /// The samplers, each under the name of its variable.
 pub(super) const SAMPLERS: [(&str, Source); 3] = [
@@ -48,6 +49,22 @@ impl EngineBuffer {
             Self::MeshIndices => "indices",
             Self::ShadowViews => "shadow views",
             Self::LightShadows => "numbers of shadow views",
+        }
+    }
+
+    /// As a shader declares it.
+    pub(super) fn in_wgsl(self) -> String {
+        format!("array<{}>", self.described().0)
+    }
+
+    /// Bytes that it has in every scene.
+    pub(super) fn least_bytes(self) -> u64 {
+        match self {
+            // Those of the unit shapes alone are more.
+            Self::MeshPositions | Self::MeshAttributes | Self::MeshGroups | Self::MeshIndices => 64,
+            // One row.
+            Self::ShadowViews => size_of::<ShadowViewData>() as u64,
+            Self::LightShadows => 4,
         }
     }
 

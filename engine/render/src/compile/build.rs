@@ -4,7 +4,8 @@ use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
 use super::state::{Channels, State, VertexStreams, blend};
-use super::{Compiler, PassLayout};
+use super::{Compiler, FULL_SCREEN, FULLSCREEN_VERTEX, LoadedShader, PassLayout, refusal};
+use crate::binding::{check_vertices, link};
 use crate::description::{PassDesc, PipelineDesc, ShaderDesc};
 use crate::gpu_pipelines::DrawPipeline;
 use crate::problem::Problem;
@@ -48,6 +49,16 @@ impl Compiler {
             }
         };
 
+        link(
+            pass,
+            vertex.reflected(),
+            fragment.map(LoadedShader::reflected),
+        )?;
+        if !own_vertex {
+            let meshes = state.vertex_path != FULLSCREEN_VERTEX
+                && !state.vertex_defines.contains(&FULL_SCREEN);
+            check_vertices(vertex.reflected(), meshes)?;
+        }
         let streams = VertexStreams::of(&vertex.reflection);
         let colors = color_states(desc, pass, state.channels);
         let depth_stencil = depth_state(desc, pass, state);
@@ -98,10 +109,7 @@ impl Compiler {
             .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
             .map_err(|error| {
                 let at = pass.shader.as_ref().map_or(&pass.at, |shader| &shader.at);
-                Problem::new(
-                    at.clone(),
-                    format!("the pass `{}` can't be built: {error}", pass.name),
-                )
+                Problem::new(at.clone(), refusal(&error))
             })?;
         let pipeline = DrawPipeline::new(pipeline, attributes);
         self.built.insert(key, &pipeline);

@@ -3,7 +3,7 @@
 use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
-use super::{Compiler, PassLayout};
+use super::{Compiler, PassLayout, refusal};
 use crate::description::PassDesc;
 use crate::gpu_pipelines::{ComputePipeline, PassPipelines, Warmth};
 use crate::problem::Problem;
@@ -44,12 +44,7 @@ impl Compiler {
         let pipeline = self
             .gpu
             .guarded(|| self.gpu.device.create_compute_pipeline(&descriptor))
-            .map_err(|error| {
-                Problem::new(
-                    shader.at.clone(),
-                    format!("the pass `{}` can't be built: {error}", pass.name),
-                )
-            })?;
+            .map_err(|error| Problem::new(shader.at.clone(), refusal(&error)))?;
         let pipeline = ComputePipeline {
             pipeline,
             workgroup,

@@ -19,9 +19,6 @@ impl Compiler {
         geometry: &Geometry,
         layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
-        if geometry.pull_vertices {
-            self.pulls(files, pass)?;
-        }
         let built = self.variants_of(files, desc, pass, geometry, layout)?;
         Ok(PassPipelines::Geometry(built))
     }
@@ -83,31 +80,6 @@ impl Compiler {
             mask,
             pull_vertices: geometry.pull_vertices,
         })
-    }
-
-    /// The shader of a pass that draws without vertex buffers fetches its vertices.
-    fn pulls(&mut self, files: &Files, pass: &PassDesc) -> Result<(), Problem> {
-        let Some(shader) = &pass.shader else {
-            return Err(Problem::new(
-                pass.at.clone(),
-                format!("`{}` pulls its vertices, but has no shader", pass.name),
-            )
-            .with_hint("add .shader(\"shaders/name.wgsl\") with a vertex stage of its own"));
-        };
-        let reflection = &self
-            .load(files, &shader.path, &[], &shader.defines)?
-            .reflection;
-        if reflection.has_vertex && reflection.vertex_inputs.is_empty() {
-            return Ok(());
-        }
-        let message = format!(
-            "`{}` pulls its vertices, but `{}` has no vertex stage that fetches them",
-            pass.name, shader.path
-        );
-        Err(Problem::new(shader.at.clone(), message).with_hint(
-            "write `@vertex fn vertex_main(@builtin(vertex_index) …)` without @location inputs, and \
-             fetch from `mesh_indices` and `mesh_positions`",
-        ))
     }
 
     /// What marks the pixels whose surface lies inside a light's volume.

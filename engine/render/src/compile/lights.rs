@@ -4,7 +4,7 @@ use lightbench_assets::files::Files;
 use wgpu::{CompareFunction, Face, StencilOperation};
 
 use super::state::{Channels, State, marking, stencil_mark, stencil_test, take_counted};
-use super::{Compiler, FULLSCREEN_VERTEX, LIGHT_VERTEX, PassLayout};
+use super::{Compiler, FULL_SCREEN, FULLSCREEN_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{LightStencil, Lights, PassDesc, PipelineDesc, ShaderDesc};
 use crate::gpu_pipelines::{
     DrawPipeline, LightPipelines, LightsPipelines, PassPipelines, StencilPipelines,
@@ -89,7 +89,7 @@ impl Compiler {
         // Depth is reversed, so "less" is farther. A back face lights what lies in front of it.
         let back = plain(Some(Face::Front), LessEqual, &[])?;
         let front = plain(Some(Face::Back), GreaterEqual, &[])?;
-        let screen = plain(None, Always, &["FULL_SCREEN"])?;
+        let screen = plain(None, Always, &[FULL_SCREEN])?;
         let marked = match lights.stencil {
             LightStencil::Off => None,
             LightStencil::TwoPass => {
@@ -128,6 +128,7 @@ impl Compiler {
             path: MARK_SHADER.to_owned(),
             at: pass.at.clone(),
             defines: Vec::new(),
+            define_places: Vec::new(),
         };
         self.build(files, desc, pass, Some(&shader), layout, state)
     }

@@ -3,7 +3,8 @@
 use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
-use super::{Compiler, FULLSCREEN_VERTEX};
+use super::{Compiler, FULLSCREEN_VERTEX, refusal};
+use crate::binding::{check_vertices, link, links_mips};
 use crate::description::{Define, PassDesc, PipelineDesc, Reduction};
 use crate::gpu_pipelines::{DrawPipeline, PassPipelines};
 use crate::problem::Problem;
@@ -40,6 +41,9 @@ impl Compiler {
         self.load(files, MIPS_SHADER, &[], &defines)?;
         let vertex = &self.shaders[&(FULLSCREEN_VERTEX.to_owned(), Vec::new(), Vec::new())];
         let fragment = &self.shaders[&(MIPS_SHADER.to_owned(), Vec::new(), defines.to_vec())];
+        links_mips(MIPS_SHADER, &fragment.reflection, kind)?;
+        link(pass, vertex.reflected(), None)?;
+        check_vertices(vertex.reflected(), false)?;
         let sample_type = match kind {
             SampleKind::Uint => wgpu::TextureSampleType::Uint,
             SampleKind::Sint => wgpu::TextureSampleType::Sint,
@@ -105,12 +109,7 @@ impl Compiler {
         let pipeline = self
             .gpu
             .guarded(|| self.gpu.device.create_render_pipeline(&descriptor))
-            .map_err(|error| {
-                Problem::new(
-                    pass.at.clone(),
-                    format!("the pass `{}` can't be built: {error}", pass.name),
-                )
-            })?;
+            .map_err(|error| Problem::new(pass.at.clone(), refusal(&error)))?;
         let pipeline = DrawPipeline::new(pipeline, false);
         self.built.insert(key, &pipeline);
         Ok(PassPipelines::Mips {

@@ -17,9 +17,9 @@ use std::collections::{BTreeSet, HashMap};
 
 use lightbench_assets::files::Files;
 
-use crate::binding::{bind, target_layout};
+use crate::binding::{Reflected, Source, bind, check_shader, target_layout};
 use crate::compiled_pass::CompiledPass;
-use crate::description::{Define, PassDesc, PassKind, PipelineDesc};
+use crate::description::{Define, PassDesc, PassKind, PipelineDesc, ShaderDesc};
 use crate::fallback::settle_formats;
 use crate::fragment_counts::{COUNT_FRAGMENTS, count_fragments};
 use crate::gpu::Gpu;
@@ -27,8 +27,8 @@ use crate::gpu_pipelines::PassPipelines;
 use crate::layout::SceneLayout;
 use crate::parameters::ParameterBlock;
 use crate::pipeline::Pipeline;
-use crate::problem::{Problem, Problems};
-use crate::reflection::{Reflection, reflect};
+use crate::problem::{Place, Problem, Problems, nearest};
+use crate::reflection::{ParameterMember, Reflection, reflect};
 use crate::shader::{MODULES, Shader, ShaderComposer};
 use crate::validate::validate;
 use crate::variant::Variants;
@@ -38,12 +38,20 @@ use cache::PipelineCache;
 const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
 const FULLSCREEN_VERTEX: &str = "shaders/vertex/fullscreen.wgsl";
 const LIGHT_VERTEX: &str = "shaders/vertex/light_volume.wgsl";
+/// The define that lets it cover the screen, for lights without bounds.
+const FULL_SCREEN: &str = "FULL_SCREEN";
 
 /// A composed shader on the device.
 struct LoadedShader {
     shader: Shader,
     reflection: Reflection,
     module: wgpu::ShaderModule,
+}
+
+impl LoadedShader {
+    fn reflected(&self) -> Reflected<'_> {
+        (&self.shader, &self.reflection)
+    }
 }
 
 /// A pipeline layout, and what tells it from others.
@@ -118,14 +126,18 @@ impl Compiler {
         let mut desc = declared.clone();
         let notes = settle_formats(&mut desc, &self.gpu);
         let desc = &desc;
-        validate(desc, &self.gpu)?;
-        self.built.begin();
         let mut problems = Vec::new();
         let mut passes = Vec::new();
-        for pass in &desc.passes {
-            match self.pass(files, desc, pass) {
-                Ok(compiled) => passes.push(compiled),
-                Err(found) => problems.extend(found),
+        if let Err(found) = validate(desc, &self.gpu) {
+            problems = found.0;
+            problems.extend(self.shader_problems(files, desc));
+        } else {
+            self.built.begin();
+            for pass in &desc.passes {
+                match self.pass(files, desc, pass) {
+                    Ok(compiled) => passes.push(compiled),
+                    Err(found) => problems.extend(found),
+                }
             }
         }
         // Passes that share a shader share its mistakes.
@@ -148,8 +160,23 @@ impl Compiler {
                 files,
             ))
         } else {
-            Err(Problems(problems))
+            Err(Problems(problems).with_sources(files))
         }
+    }
+
+    /// The first mistake of each shader by itself, for a description that has mistakes too.
+    fn shader_problems(&mut self, files: &Files, desc: &PipelineDesc) -> Vec<Problem> {
+        let shaders = desc.passes.iter().filter_map(|pass| pass.shader.as_ref());
+        shaders
+            .filter_map(|shader| {
+                let known = shader_file(files, shader);
+                let loaded = known.and_then(|()| {
+                    self.load(files, &shader.path, &[], &shader.defines)
+                        .map(|_| ())
+                });
+                loaded.err()
+            })
+            .collect()
     }
 
     /// Composes a shader unless it is known already.
@@ -180,10 +207,9 @@ impl Compiler {
     ) -> Result<LoadedShader, Problem> {
         let composer = match &mut self.composer {
             Some(composer) => composer,
-            None => self.composer.insert(ShaderComposer::new(
-                files,
-                naga::valid::Capabilities::default(),
-            )?),
+            None => self
+                .composer
+                .insert(ShaderComposer::new(files, self.gpu.capabilities())?),
         };
         let defines: Vec<Define> = variant
             .iter()
@@ -194,7 +220,8 @@ impl Compiler {
         if defines.iter().any(|define| define.name == COUNT_FRAGMENTS) {
             count_fragments(&mut shader.module);
         }
-        let reflection = reflect(&shader.module);
+        let reflection = reflect(&shader);
+        check_shader(&reflection, &self.gpu.device.limits())?;
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
         let module = self
             .gpu
@@ -207,10 +234,8 @@ impl Compiler {
                     })
             })
             .map_err(|error| {
-                Problem::new(
-                    crate::Place::file(path),
-                    format!("the driver refuses the shader: {error}"),
-                )
+                Problem::new(Place::file(path), refusal(&error))
+                    .with_hint("another way to write the same may work")
             })?;
         Ok(LoadedShader {
             shader,
@@ -226,43 +251,18 @@ impl Compiler {
         pass: &PassDesc,
     ) -> Result<CompiledPass, Vec<Problem>> {
         let one = |problem: Problem| vec![problem];
-        // The shader's file may be missing: that is a mistake in the pipeline, not in the shader.
-        let shader = pass.shader.as_ref();
-        if let Some(shader) = shader
-            && !files.exists(&shader.path)
-        {
-            let known = files.list("shaders", "wgsl").unwrap_or_default();
-            let mut problem = Problem::new(
-                shader.at.clone(),
-                format!("there is no shader `{}`", shader.path),
-            );
-            problem.hint = crate::problem::suggestion(
-                &shader.path,
-                known.iter().map(|entry| entry.path.as_str()),
-            );
-            return Err(one(problem));
-        }
-
+        let pass = &shadow::with_shader(pass);
         let mut sources = Vec::new();
         let mut parameters = None;
-        if let Some(shader) = shader {
-            let loaded = self
-                .load(files, &shader.path, &[], &shader.defines)
-                .map_err(one)?;
-            let mut reflection = loaded.reflection.clone();
-            // Alpha-tested materials may ask for more.
-            if matches!(pass.kind, PassKind::Geometry(_)) {
-                let tested = self
-                    .load(files, &shader.path, &["ALPHA_TEST"], &shader.defines)
-                    .map_err(one)?;
-                reflection.add_bindings(&tested.reflection);
-            }
-            let loaded = &self.shaders[&(shader.path.clone(), Vec::new(), shader.defines.clone())];
-            sources = bind(desc, pass, &loaded.shader, &reflection)?;
-            parameters = reflection.parameters;
+        if let Some(shader) = &pass.shader {
+            shader_file(files, shader).map_err(one)?;
+            (sources, parameters) = self.bind(files, desc, pass, shader)?;
         }
 
-        let target_layout = target_layout(&self.gpu, &sources, desc, pass);
+        let target_layout = self
+            .gpu
+            .guarded(|| target_layout(&self.gpu, &sources, desc, pass))
+            .map_err(|error| one(Problem::new(pass.at.clone(), refusal(&error))))?;
         let formats: Vec<_> = pass
             .reads
             .iter()
@@ -308,4 +308,93 @@ impl Compiler {
             parameters,
         ))
     }
+
+    /// Finds what the variables of a pass's shader stand for. All variants of it that the pass may
+    /// draw with share one layout, which has what any of them asks for.
+    fn bind(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        shader: &ShaderDesc,
+    ) -> Result<Bound, Vec<Problem>> {
+        let variants: &[&[&'static str]] = match pass.kind {
+            PassKind::Geometry(_) | PassKind::Shadow(_) => &[&[], &["ALPHA_TEST"]],
+            _ => &[&[]],
+        };
+        let mut all: Option<Reflection> = None;
+        for variant in variants {
+            let loaded = self
+                .load(files, &shader.path, variant, &shader.defines)
+                .map_err(|problem| vec![problem])?;
+            match &mut all {
+                None => all = Some(loaded.reflection.clone()),
+                Some(all) => all
+                    .add_variant(&loaded.reflection)
+                    .map_err(|place| vec![other_variant(place)])?,
+            }
+        }
+        let mut all = all.unwrap_or_default();
+        let mut sources = Vec::new();
+        let gpu = self.gpu.clone();
+        for variant in variants {
+            let loaded = self
+                .load(files, &shader.path, variant, &shader.defines)
+                .map_err(|problem| vec![problem])?;
+            // Each has entry points of its own, for textures that any may filter.
+            let own = loaded.reflection.entry_points.iter();
+            let shared = std::mem::take(&mut all.entry_points);
+            all.entry_points = own
+                .map(|entry| {
+                    let mut entry = entry.clone();
+                    let same = shared.iter().filter(|other| other.stage == entry.stage);
+                    entry.samples.extend(same.flat_map(|other| &other.samples));
+                    entry
+                })
+                .collect();
+            sources = bind(desc, pass, &loaded.shader, &all, &gpu)?;
+        }
+        Ok((sources, all.parameters))
+    }
+}
+
+/// What group 1 of a pass holds, and the members and size of its parameters.
+type Bound = (Vec<(u32, Source)>, Option<(Vec<ParameterMember>, u32)>);
+
+/// The shader's file may be missing: that is a mistake in the pipeline, not in the shader.
+fn shader_file(files: &Files, shader: &ShaderDesc) -> Result<(), Problem> {
+    if files.exists(&shader.path) {
+        return Ok(());
+    }
+    let known = files.list("shaders", "wgsl").unwrap_or_default();
+    let known = || known.iter().map(|entry| entry.path.as_str());
+    let path = shader.path.as_str();
+    let name = |path: &'_ str| path.rsplit('/').next().unwrap_or(path).replace(".wgsl", "");
+    // Files of one folder have long paths that are nearly the same: only their names are compared.
+    let wanted = name(path);
+    let names: Vec<String> = known().map(name).collect();
+    let near = nearest(&wanted, names.iter().map(String::as_str));
+    let near = near.and_then(|near| known().find(|path| name(path) == near));
+    let hint = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "write the file, or name one of `lightbench list files`".to_owned(),
+    };
+    Err(Problem::new(shader.at.clone(), format!("there is no shader `{path}`")).with_hint(hint))
+}
+
+/// The variant for materials with holes binds something where the one for all others binds another.
+fn other_variant(place: Place) -> Problem {
+    Problem::new(
+        place,
+        "this shader asks for one thing with ALPHA_TEST and for another without",
+    )
+    .with_hint(
+        "what only one of them needs takes a binding of its own; group 2 is the same for both",
+    )
+}
+
+/// A refusal of the device that nobody foresaw. Its words are for those who mend the program.
+fn refusal(error: &str) -> String {
+    tracing::error!("{error}");
+    "the device refuses this, and the program can't tell why".to_owned()
 }

@@ -3,7 +3,7 @@
 use lightbench_assets::files::Files;
 
 use super::{Compiler, PassLayout};
-use crate::description::{Geometry, PassDesc, PipelineDesc, ShaderDesc, Shadow};
+use crate::description::{Geometry, PassDesc, PassKind, PipelineDesc, ShaderDesc, Shadow};
 use crate::gpu_pipelines::PassPipelines;
 use crate::problem::Problem;
 
@@ -24,16 +24,21 @@ impl Compiler {
             faces: shadow.faces,
             ..Geometry::default()
         };
-        let holes = ShaderDesc {
+        let built = self.variants_of(files, desc, pass, &geometry, layout)?;
+        Ok(PassPipelines::Shadow(built))
+    }
+}
+
+/// The pass, with a shader if it is a `shadow` pass that names none.
+pub(super) fn with_shader(pass: &PassDesc) -> PassDesc {
+    let mut pass = pass.clone();
+    if matches!(pass.kind, PassKind::Shadow(_)) && pass.shader.is_none() {
+        pass.shader = Some(ShaderDesc {
             path: SHADOW_SHADER.to_owned(),
             at: pass.at.clone(),
             defines: Vec::new(),
-        };
-        let pass = PassDesc {
-            shader: Some(pass.shader.clone().unwrap_or(holes)),
-            ..pass.clone()
-        };
-        let built = self.variants_of(files, desc, &pass, &geometry, layout)?;
-        Ok(PassPipelines::Shadow(built))
+            define_places: Vec::new(),
+        });
     }
+    pass
 }

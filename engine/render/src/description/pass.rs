@@ -75,6 +75,8 @@ pub struct ShaderDesc {
     pub at: Place,
     /// Defines, in the order of declaration.
     pub defines: Vec<Define>,
+    /// Where each define was written, in the same order.
+    pub define_places: Vec<Place>,
 }
 
 /// Which objects a geometry pass draws.

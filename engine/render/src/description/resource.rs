@@ -122,6 +122,14 @@ impl TargetDesc {
         }
     }
 
+    /// The most texels that a device with those limits has along its width and height.
+    pub fn most_texels_along(&self, limits: &wgpu::Limits) -> u32 {
+        match self.shape {
+            Shape::Volume(_) => limits.max_texture_dimension_3d,
+            _ => limits.max_texture_dimension_2d,
+        }
+    }
+
     /// For messages: the format, and what is unusual about its shape.
     pub fn in_words(&self) -> String {
         let samples = match self.samples {
@@ -163,6 +171,11 @@ pub enum BufferSize {
 }
 
 impl BufferSize {
+    /// Words that it has at least, whatever the output and the scene.
+    pub fn least_words(self) -> u64 {
+        self.resolve((1, 1), 0)
+    }
+
     /// Words for an output of that size and a scene of that many lights, at least 4.
     pub fn resolve(self, (width, height): (u32, u32), lights: u32) -> u64 {
         let words = match self {

@@ -139,7 +139,7 @@ impl Texels {
         files: &Files,
         path: &str,
     ) -> Result<wgpu::ShaderModule, Problem> {
-        let mut composer = ShaderComposer::new(files, naga::valid::Capabilities::default())?;
+        let mut composer = ShaderComposer::new(files, gpu.capabilities())?;
         let shader = composer.compose(files, path, &self.defines())?;
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module));
         gpu.guarded(|| {

@@ -2,8 +2,8 @@
 
 use super::{Checker, FormatSupport};
 use crate::description::{
-    Blend, ColorAttachment, DepthAttachment, Load, Mips, PassDesc, PassKind, Shape, Slice,
-    TargetDesc, TargetSize,
+    Blend, BlendFactor, BlendOperation, ColorAttachment, ColorMask, DepthAttachment, Load, Mips,
+    PassDesc, PassKind, Shape, Slice, TargetDesc, TargetSize, Update,
 };
 use crate::problem::Place;
 use crate::record::MAX_COLORS;
@@ -12,7 +12,9 @@ use crate::reflection::SampleKind;
 impl<S: FormatSupport> Checker<'_, S> {
     pub(super) fn attachments(&mut self, pass: &PassDesc) {
         let writes = !pass.colors.is_empty() || pass.depth.is_some() || !pass.updates.is_empty();
-        if pass.kind.rasterises() && !writes {
+        // What a shadow pass must write is told with its kind.
+        let shadow = matches!(pass.kind, PassKind::Shadow(_));
+        if pass.kind.rasterises() && !writes && !shadow {
             self.report(
                 &pass.at,
                 format!("the pass `{}` writes nothing", pass.name),
@@ -20,6 +22,23 @@ impl<S: FormatSupport> Checker<'_, S> {
             );
         }
         let mut seen: Vec<(&str, Slice)> = Vec::new();
+        let resolved = pass
+            .colors
+            .iter()
+            .filter_map(|color| color.resolve.as_ref());
+        for into in resolved {
+            let drawn = pass.colors.iter().any(|color| color.target == into.name);
+            let slice = (into.name.as_str(), Slice::default());
+            if drawn || seen.contains(&slice) {
+                self.report(
+                    &into.at,
+                    format!("the pass writes `{}` twice", into.name),
+                    "resolve to a target of its own".to_owned(),
+                );
+            }
+            seen.push(slice);
+        }
+        seen.clear();
         for color in &pass.colors {
             let Some(target) = self.target(&color.target, &color.at) else {
                 continue;
@@ -42,12 +61,15 @@ impl<S: FormatSupport> Checker<'_, S> {
             if self.known(&read.target, &read.at) {
                 let (mip, layer) = (read.mip.unwrap_or(0), read.layer.unwrap_or(0));
                 self.in_range(&read.target, &read.at, mip, layer);
+                self.part(&read.target, &read.at, read.layer.is_some());
             }
         }
         for update in &pass.updates {
             if self.known(&update.target, &update.at) {
                 let Slice { mip, layer } = update.slice;
                 self.in_range(&update.target, &update.at, mip, layer);
+                self.part(&update.target, &update.at, update.one_layer);
+                self.updated(update);
             }
         }
         if pass.kind != PassKind::Clear {
@@ -59,6 +81,7 @@ impl<S: FormatSupport> Checker<'_, S> {
     fn color(&mut self, color: &ColorAttachment, target: &TargetDesc) {
         let format = target.format;
         self.in_range(&color.target, &color.at, color.slice.mip, color.slice.layer);
+        self.channels(color, target);
         if format.is_depth() {
             self.report(
                 &color.at,
@@ -71,13 +94,13 @@ impl<S: FormatSupport> Checker<'_, S> {
         } else if color.blend != Blend::Replace && !self.support.blendable(format) {
             let integer = SampleKind::of_format(format.0) != SampleKind::Float;
             let why = if integer {
-                "integers never blend"
+                "and integers never blend"
             } else {
-                "not on this adapter"
+                "which this adapter can't blend"
             };
             self.report(
                 &color.at,
-                format!("`{}` is {format}, which can't blend: {why}", color.target),
+                format!("`{}` is {format}, {why}", color.target),
                 "choose `rgba16float`, or drop .blend".to_owned(),
             );
         }
@@ -94,29 +117,72 @@ impl<S: FormatSupport> Checker<'_, S> {
         let Some(into) = self.target(&resolve.name, &resolve.at) else {
             return;
         };
-        if target.samples == 1 {
+        let at = resolve.at.clone();
+        self.mean(target, &at, into, &at, "declare it with .samples(4)");
+    }
+
+    /// The channels that are written exist, and blend as the device can.
+    fn channels(&mut self, color: &ColorAttachment, target: &TargetDesc) {
+        let components = target.format.0.components();
+        let missing = (components..4).find(|channel| color.mask.0 & (1 << channel) != 0);
+        if let Some(channel) = missing.filter(|_| color.mask != ColorMask::ALL) {
             self.report(
-                &resolve.at,
+                &color.at,
                 format!(
-                    "`{}` has one sample a texel: there is nothing to resolve",
-                    target.name
+                    "`{}` is {}, which has no channel `{}`",
+                    color.target,
+                    target.format,
+                    ["r", "g", "b", "a"][usize::from(channel)]
                 ),
-                "declare it with .samples(4)".to_owned(),
+                format!("its channels are `{}`", &"rgba"[..usize::from(components)]),
             );
-        } else if into.samples != 1 || into.format != format || into.size != target.size {
+        }
+        let Some((rgb, alpha)) = color.blend.parts() else {
+            return;
+        };
+        for part in [rgb, alpha] {
+            let extreme = matches!(part.operation, BlendOperation::Min | BlendOperation::Max);
+            let plain = [part.source, part.destination] == [BlendFactor::One; 2];
+            if extreme && !plain {
+                self.report(
+                    &color.at,
+                    format!(
+                        "`{}` is blended by `min` or `max` with a factor",
+                        color.target
+                    ),
+                    "these take the factor `one` on both sides".to_owned(),
+                );
+                return;
+            }
+        }
+    }
+
+    /// Shaders see a volume as a whole.
+    fn part(&mut self, name: &str, at: &Place, one_layer: bool) {
+        let target = self.desc.target(name);
+        let volume = target.is_some_and(|t| matches!(t.shape, Shape::Volume(_)));
+        if one_layer && volume {
             self.report(
-                &resolve.at,
+                at,
+                format!("`{name}` is a volume: shaders can't have one slice of it"),
+                "drop .layer; the shader chooses the slice, as in textureLoad(volume, vec3i(x, y, \
+                 z), 0)"
+                    .to_owned(),
+            );
+        }
+    }
+
+    /// A target that a shader writes to wherever it likes.
+    fn updated(&mut self, update: &Update) {
+        let target = self.desc.target(&update.target);
+        if target.is_some_and(|target| target.samples > 1) {
+            self.report(
+                &update.at,
                 format!(
-                    "`{}` can't take the mean of `{}`: they are not alike",
-                    into.name, target.name
+                    "`{}` has several samples a texel and can't be updated",
+                    update.target
                 ),
-                "give it the same format and size, and one sample a texel".to_owned(),
-            );
-        } else if !self.support.resolvable(format) {
-            self.report(
-                &resolve.at,
-                format!("samples of {format} have no mean on this adapter"),
-                "read the samples in a shader, with textureLoad".to_owned(),
+                "draw to it with .writes, or drop .samples".to_owned(),
             );
         }
     }
@@ -180,12 +246,16 @@ impl<S: FormatSupport> Checker<'_, S> {
                 "declare it with .mips()".to_owned(),
             );
         }
-        if layer >= target.shape.layers() {
-            let layers = target.shape.layers();
+        let layers = match target.shape {
+            // A volume's smaller levels have fewer slices.
+            Shape::Volume(slices) => (slices >> mip.min(31)).max(1),
+            shape => shape.layers(),
+        };
+        if layer >= layers {
             let hint = if target.shape == Shape::Flat {
                 "declare it with .array(layers)"
             } else {
-                "layers are counted from 0"
+                "layers are counted from 0; smaller mip levels of a volume have fewer"
             };
             self.report(
                 at,
@@ -203,12 +273,19 @@ impl<S: FormatSupport> Checker<'_, S> {
             .chain(depth)
             .filter_map(|(name, at, mip)| self.desc.target(name).map(|t| (t, at, mip)))
             .collect();
-        let Some(((first, _, mip), rest)) = known.split_first() else {
+        let Some((&(first, _, mip), rest)) = known.split_first() else {
             return;
         };
-        for (target, at, other_mip) in rest {
+        for &(target, at, other_mip) in rest {
             let (name, first_name) = (&target.name, &first.name);
-            if (target.size, other_mip) != (first.size, mip) {
+            let size = |target: &TargetDesc, mip: u32| match target.size {
+                TargetSize::Absolute(width, height) => (
+                    TargetSize::Absolute((width >> mip).max(1), (height >> mip).max(1)),
+                    0,
+                ),
+                other => (other, mip),
+            };
+            if size(target, other_mip) != size(first, mip) {
                 self.report(
                     at,
                     format!("`{name}` and `{first_name}` differ in size, but one pass writes both"),
@@ -251,7 +328,7 @@ impl<S: FormatSupport> Checker<'_, S> {
             };
             bytes = u32::next_multiple_of(bytes, alignment) + cost;
         }
-        let most = self.support.color_bytes();
+        let most = self.support.limits().max_color_attachment_bytes_per_sample;
         if bytes > most {
             self.report(
                 &pass.at,
@@ -293,7 +370,35 @@ impl<S: FormatSupport> Checker<'_, S> {
                     "drop .reads: what is updated can be read too".to_owned(),
                 );
             }
+            let mut resolved = pass
+                .colors
+                .iter()
+                .filter_map(|color| color.resolve.as_ref());
+            if resolved.any(|into| clashes(&into.name, Slice::default())) {
+                self.report(
+                    &read.at,
+                    format!(
+                        "the pass `{}` reads `{}` and resolves to it",
+                        pass.name, read.target
+                    ),
+                    "resolve to another target".to_owned(),
+                );
+            }
             let depth = pass.depth.as_ref();
+            let marks = depth.is_some_and(|depth| {
+                let stencil = depth.stencil.as_ref();
+                !depth.write && stencil.is_some_and(|stencil| stencil.writes())
+            });
+            if marks && depth.is_some_and(|depth| depth.target == read.target) {
+                self.report(
+                    &read.at,
+                    format!(
+                        "the pass `{}` reads the depth `{}` and writes the stencil beside it",
+                        pass.name, read.target
+                    ),
+                    "write depth to a second target in an earlier pass, and read that".to_owned(),
+                );
+            }
             if depth.is_some_and(|depth| depth.write && clashes(&depth.target, depth.slice)) {
                 self.report(
                     &read.at,
@@ -305,7 +410,20 @@ impl<S: FormatSupport> Checker<'_, S> {
                 );
             }
         }
-        for update in &pass.updates {
+        for (index, update) in pass.updates.iter().enumerate() {
+            let same = |other: &&Update| {
+                let layers = other.one_layer && update.one_layer;
+                other.target == update.target
+                    && other.slice.mip == update.slice.mip
+                    && (!layers || other.slice.layer == update.slice.layer)
+            };
+            if pass.updates[..index].iter().find(same).is_some() {
+                self.report(
+                    &update.at,
+                    format!("the pass `{}` updates `{}` twice", pass.name, update.target),
+                    "one variable is enough".to_owned(),
+                );
+            }
             let drawn = pass.colors.iter().any(|c| c.target == update.target)
                 || pass.depth.iter().any(|d| d.target == update.target);
             if drawn {

@@ -2,15 +2,23 @@
 
 use super::{Checker, FormatSupport};
 use crate::description::{
-    Amount, Dispatch, LightStencil, Load, PassDesc, PassKind, Read, Reduction, Shadow, ShadowViews,
-    Shape, StencilClear,
+    Amount, ColorMask, Dispatch, LightStencil, Lights, Load, PassDesc, PassKind, Shadow,
+    ShadowViews, Slice, StencilClear,
 };
-use crate::reflection::SampleKind;
+use crate::problem::suggestion;
 
 impl<S: FormatSupport> Checker<'_, S> {
     pub(super) fn kind(&mut self, pass: &PassDesc) {
         match &pass.kind {
             PassKind::Geometry(geometry) => {
+                if geometry.pull_vertices && pass.shader.is_none() {
+                    self.report(
+                        &pass.at,
+                        format!("`{}` pulls its vertices, but has no shader", pass.name),
+                        "add .shader(\"shaders/name.wgsl\") with a vertex stage of its own"
+                            .to_owned(),
+                    );
+                }
                 if let Some(repeat) = geometry.repeat.filter(|repeat| repeat.stencil) {
                     if repeat.lights != 1 {
                         self.report(
@@ -29,17 +37,7 @@ impl<S: FormatSupport> Checker<'_, S> {
                 if lights.stencil != LightStencil::Off {
                     self.stencil_buffer(pass, "marks volumes in stencil");
                 }
-                let channels = pass.colors.len() as u32 * 4;
-                if lights.arrays > channels {
-                    self.report(
-                        &pass.at,
-                        format!(
-                            "`{}` has {} arrays of lights, but its targets have {channels} channels",
-                            pass.name, lights.arrays
-                        ),
-                        "add a target of four channels for every four arrays".to_owned(),
-                    );
-                }
+                self.light_arrays(pass, lights);
             }
             PassKind::Shadow(shadow) => self.shadow(pass, shadow),
             PassKind::Compute(dispatch) => self.dispatch(pass, dispatch),
@@ -51,6 +49,44 @@ impl<S: FormatSupport> Checker<'_, S> {
             PassKind::Mips { target, reduction } => self.mips(target, *reduction),
             PassKind::Fullscreen => {}
         }
+    }
+
+    /// Array n of the lights has channel n mod 4 of colour target n / 4.
+    fn light_arrays(&mut self, pass: &PassDesc, lights: &Lights) {
+        let desc = self.desc;
+        let mut masked = pass.colors.iter().filter(|c| c.mask != ColorMask::ALL);
+        if lights.arrays > 0
+            && let Some(color) = masked.next()
+        {
+            self.report(
+                &color.at,
+                format!(
+                    "the arrays of `{}` choose themselves which channels of `{}` they write",
+                    pass.name, color.target
+                ),
+                "drop .mask, or .arrays".to_owned(),
+            );
+        }
+        let has = |array: u32| {
+            let color = pass.colors.get(array as usize / 4)?;
+            let target = desc.target(&color.target)?;
+            Some(array % 4 < u32::from(target.format.0.components()))
+        };
+        if (0..lights.arrays).all(|array| has(array) == Some(true)) {
+            return;
+        }
+        let channels = (0..lights.arrays).filter(|array| has(*array) == Some(true));
+        self.report(
+            &pass.at,
+            format!(
+                "`{}` has {} arrays of lights, but its targets have room for {}",
+                pass.name,
+                lights.arrays,
+                channels.count()
+            ),
+            "each array has one channel: write a target of four channels for every four arrays"
+                .to_owned(),
+        );
     }
 
     /// The pass has a depth target with stencil, and does not read it.
@@ -112,6 +148,16 @@ impl<S: FormatSupport> Checker<'_, S> {
                 "drop .read_only()".to_owned(),
             );
         }
+        if depth.slice != Slice::default() {
+            self.report(
+                &depth.at,
+                format!(
+                    "the shadow pass `{}` draws to all layers of `{}`, a view to each",
+                    pass.name, depth.target
+                ),
+                "drop .layer, or draw the one layer to a target of its own".to_owned(),
+            );
+        }
         if let Some(stencil) = &depth.stencil {
             self.report(
                 &stencil.at,
@@ -160,15 +206,7 @@ impl<S: FormatSupport> Checker<'_, S> {
                     self.in_range(&target.name, &pass.at, *mip, 0);
                 }
             }
-            Dispatch::Indirect { buffer, .. } => {
-                if self.desc.buffer(buffer).is_none() {
-                    self.report(
-                        &pass.at,
-                        format!("there is no buffer `{buffer}`"),
-                        format!("declare it: p.buffer(\"{buffer}\", 3)"),
-                    );
-                }
-            }
+            Dispatch::Indirect { buffer, word } => self.indirect(pass, buffer, *word),
             Dispatch::Threads(_) | Dispatch::Groups(_) => {}
         }
         if pass.updates.is_empty() {
@@ -176,6 +214,41 @@ impl<S: FormatSupport> Checker<'_, S> {
                 &pass.at,
                 format!("the pass `{}` writes nothing", pass.name),
                 "add .updates(\"buffer\")".to_owned(),
+            );
+        }
+    }
+
+    /// The number of workgroups stands in a buffer that the pass itself leaves alone.
+    fn indirect(&mut self, pass: &PassDesc, name: &str, word: u32) {
+        let desc = self.desc;
+        let Some(buffer) = desc.buffer(name) else {
+            let names = desc.buffers.iter().map(|buffer| buffer.name.as_str());
+            let hint = suggestion(name, names)
+                .unwrap_or_else(|| format!("declare it: p.buffer(\"{name}\", 3)"));
+            self.report(&pass.at, format!("there is no buffer `{name}`"), hint);
+            return;
+        };
+        let words = buffer.size.least_words();
+        if u64::from(word) + 3 > words {
+            self.report(
+                &pass.at,
+                format!(
+                    "`{}` takes words {word} to {} of `{name}`, which may have {words} only",
+                    pass.name,
+                    u64::from(word) + 2
+                ),
+                "three words say how many groups there are along x, y and z; the first is 0"
+                    .to_owned(),
+            );
+        }
+        if let Some(update) = pass.updates.iter().find(|update| update.target == name) {
+            self.report(
+                &update.at,
+                format!(
+                    "`{}` updates `{name}`, which says how often it runs",
+                    pass.name
+                ),
+                "let another pass write the number of groups, into another buffer".to_owned(),
             );
         }
     }
@@ -228,135 +301,6 @@ impl<S: FormatSupport> Checker<'_, S> {
         }
     }
 
-    fn copy(&mut self, pass: &PassDesc, from: &Read, to: &Read) {
-        let desc = self.desc;
-        if !self.known(&from.target, &from.at) || !self.known(&to.target, &to.at) {
-            return;
-        }
-        if from.target == to.target && (from.mip, from.layer) == (to.mip, to.layer) {
-            self.report(
-                &from.at,
-                format!("`{}` copies `{}` to itself", pass.name, from.target),
-                "name another target".to_owned(),
-            );
-            return;
-        }
-        if let (Some(a), Some(b)) = (desc.buffer(&from.target), desc.buffer(&to.target)) {
-            if a.size != b.size {
-                let message = format!("`{}` and `{}` differ in size", a.name, b.name);
-                self.report(&from.at, message, "give them the same words".to_owned());
-            }
-            return;
-        }
-        let (Some(a), Some(b)) = (desc.target(&from.target), desc.target(&to.target)) else {
-            self.report(
-                &from.at,
-                format!(
-                    "of `{}` and `{}` one is a target, one a buffer",
-                    from.target, to.target
-                ),
-                "copy between two targets or two buffers".to_owned(),
-            );
-            return;
-        };
-        let slices = from.mip.is_some() || to.mip.is_some();
-        let alike = a.format == b.format
-            && a.samples == b.samples
-            && (slices || (a.size == b.size && a.shape == b.shape));
-        if !alike {
-            self.report(
-                &from.at,
-                format!(
-                    "`{}` can't be copied to `{}`: they are not alike",
-                    a.name, b.name
-                ),
-                "give them the same format, size, shape and samples".to_owned(),
-            );
-        }
-        for read in [from, to] {
-            let (mip, layer) = (read.mip.unwrap_or(0), read.layer.unwrap_or(0));
-            self.in_range(&read.target, &read.at, mip, layer);
-        }
-        let history = matches!(pass.kind, PassKind::History { .. });
-        let written = desc.passes.iter().any(|other| {
-            other.name != pass.name && crate::life::writes(other).any(|name| name == to.target)
-        });
-        if history && written {
-            self.report(
-                &to.at,
-                format!(
-                    "`{}` holds the last frame, but another pass writes it too",
-                    to.target
-                ),
-                "let the other pass write another target".to_owned(),
-            );
-        }
-    }
-
-    fn resolve(&mut self, from: &Read, to: &Read) {
-        let (a, b) = (
-            self.target(&from.target, &from.at),
-            self.target(&to.target, &to.at),
-        );
-        let (Some(a), Some(b)) = (a, b) else {
-            return;
-        };
-        if a.samples == 1 {
-            self.report(
-                &from.at,
-                format!(
-                    "`{}` has one sample a texel: there is nothing to resolve",
-                    a.name
-                ),
-                "declare it with .samples(4), or use p.copy".to_owned(),
-            );
-        } else if b.samples != 1 || a.format != b.format || a.size != b.size {
-            self.report(
-                &to.at,
-                format!(
-                    "`{}` can't take the mean of `{}`: they are not alike",
-                    b.name, a.name
-                ),
-                "give it the same format and size, and one sample a texel".to_owned(),
-            );
-        } else if !self.support.resolvable(a.format) {
-            self.report(
-                &from.at,
-                format!("samples of {} have no mean on this adapter", a.format),
-                "read the samples in a shader, with textureLoad".to_owned(),
-            );
-        }
-    }
-
-    fn mips(&mut self, read: &Read, reduction: Reduction) {
-        let Some(target) = self.target(&read.target, &read.at) else {
-            return;
-        };
-        let name = &target.name;
-        let kind = SampleKind::of_format(target.format.0);
-        if target.mips == crate::description::Mips::Count(1) {
-            self.report(
-                &read.at,
-                format!("`{name}` has one mip level only"),
-                "declare it with .mips()".to_owned(),
-            );
-        }
-        if kind == SampleKind::Depth || matches!(target.shape, Shape::Volume(_)) {
-            self.report(
-                &read.at,
-                format!("a `mips` pass can't fill `{name}`, which is depth or 3D"),
-                "copy depth to an `r32float` target in a fullscreen pass first".to_owned(),
-            );
-        }
-        if reduction == Reduction::Average && matches!(kind, SampleKind::Uint | SampleKind::Sint) {
-            self.report(
-                &read.at,
-                format!("`{name}` is {}: integers have no average", target.format),
-                "use `min` or `max`".to_owned(),
-            );
-        }
-    }
-
     /// Passes that draw or compute have a shader, the others have none.
     pub(super) fn shader(&mut self, pass: &PassDesc) {
         let draws = pass.kind.rasterises() || matches!(pass.kind, PassKind::Compute(_));
@@ -378,6 +322,9 @@ impl<S: FormatSupport> Checker<'_, S> {
             ),
             _ => {}
         }
+        if !draws {
+            self.nothing_to_draw(pass);
+        }
         if matches!(pass.kind, PassKind::Lights(_) | PassKind::Fullscreen)
             && pass.colors.is_empty()
             && pass.updates.is_empty()
@@ -397,6 +344,34 @@ impl<S: FormatSupport> Checker<'_, S> {
                     "add .writes(\"target\")".to_owned(),
                 );
             }
+        }
+    }
+
+    /// A pass that runs no shader reads nothing by itself, and only `clear` has attachments.
+    fn nothing_to_draw(&mut self, pass: &PassDesc) {
+        let kind = pass.kind.name();
+        let clears = pass.kind == PassKind::Clear;
+        if let Some(read) = pass.reads.first() {
+            self.report(
+                &read.at,
+                format!("a `{kind}` pass has no shader that could read something"),
+                "remove .reads, or use p.fullscreen".to_owned(),
+            );
+        }
+        let colors = pass.colors.iter().map(|color| &color.at);
+        let depth = pass.depth.iter().map(|depth| &depth.at);
+        let updates = pass.updates.iter().map(|update| &update.at);
+        if let Some(at) = colors
+            .chain(depth)
+            .chain(updates)
+            .next()
+            .filter(|_| !clears)
+        {
+            self.report(
+                at,
+                format!("a `{kind}` pass writes the target that it names first, and no other"),
+                "remove this, or use p.fullscreen".to_owned(),
+            );
         }
     }
 }

@@ -4,17 +4,20 @@
 //! shaders can tell is checked in [`crate::binding`], after they are composed.
 
 mod attachments;
+mod every_adapter;
 mod kinds;
 mod order;
 mod resources;
 mod results;
 mod support;
+mod transfers;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::description::{PipelineDesc, TargetDesc};
-use crate::problem::{Place, Problem, Problems, suggestion};
+use crate::problem::{Place, Problem, Problems, nearest, suggestion};
 
+pub use every_adapter::EveryAdapter;
 pub use support::FormatSupport;
 
 /// Checks the description.
@@ -26,6 +29,8 @@ pub fn validate(desc: &PipelineDesc, support: &impl FormatSupport) -> Result<(),
         desc,
         support,
         problems: Vec::new(),
+        meant: BTreeSet::new(),
+        unwritten: BTreeSet::new(),
     };
     checker.names();
     checker.targets();
@@ -36,14 +41,19 @@ pub fn validate(desc: &PipelineDesc, support: &impl FormatSupport) -> Result<(),
         checker.feedback(pass);
         checker.shader(pass);
     }
+    // What a misspelt name meant is known only now.
+    checker.uses();
     checker.order();
     checker.results();
     if checker.problems.is_empty() {
         return Ok(());
     }
-    checker
-        .problems
-        .sort_by_key(|problem| (problem.place.line, problem.place.column));
+    // The pipeline's own file comes first, then the parts that it imports.
+    checker.problems.sort_by_key(|problem| {
+        let place = &problem.place;
+        let part = place.file != desc.file.file;
+        (part, place.file.clone(), place.line, place.column)
+    });
     checker.problems.dedup();
     Err(Problems(checker.problems))
 }
@@ -52,6 +62,11 @@ struct Checker<'a, S> {
     desc: &'a PipelineDesc,
     support: &'a S,
     problems: Vec<Problem>,
+    /// What misspelt names probably meant: that these are not written or not used is no mistake of
+    /// its own.
+    meant: BTreeSet<&'a str>,
+    /// Targets of which it was told that nobody writes them.
+    unwritten: BTreeSet<&'a str>,
 }
 
 impl<'a, S: FormatSupport> Checker<'a, S> {
@@ -67,6 +82,7 @@ impl<'a, S: FormatSupport> Checker<'a, S> {
         let found = desc.target(name);
         if found.is_none() {
             let names = || desc.targets.iter().map(|target| target.name.as_str());
+            self.meant.extend(nearest(name, names()));
             let hint = if desc.buffer(name).is_some() {
                 format!("`{name}` is a buffer: a shader writes it through .updates")
             } else {
@@ -95,6 +111,8 @@ impl<'a, S: FormatSupport> Checker<'a, S> {
         }
         let targets = desc.targets.iter().map(|target| target.name.as_str());
         let buffers = desc.buffers.iter().map(|buffer| buffer.name.as_str());
+        self.meant
+            .extend(nearest(name, targets.clone().chain(buffers.clone())));
         if buffers.len() == 0 {
             self.target(name, at);
         } else {

@@ -19,16 +19,18 @@ impl<S: FormatSupport> Checker<'_, S> {
         }));
         for pass in &desc.passes {
             for (name, at, verb) in wanted(pass) {
-                if desc.target(name).is_some() && !written.contains(name) {
+                let fresh = !written.contains(name) && !self.meant.contains(name);
+                if desc.target(name).is_some() && fresh && self.unwritten.insert(name) {
                     let later = desc.passes.iter().find(|other| {
                         other.name != pass.name && life::writes(other).any(|w| w == name)
                     });
                     let hint = match later {
-                        _ if verb == "keeps" => "add .clear after it".to_owned(),
-                        Some(later) => {
-                            format!("`{}` writes it, but comes later: move it up", later.name)
-                        }
-                        None if verb == "tests against" => "add .clear after it".to_owned(),
+                        _ if verb == "draws over" => "add .clear(0, 0, 0, 0) after it".to_owned(),
+                        Some(later) => format!(
+                            "`{}` writes it, but comes later: move it before `{}`",
+                            later.name, pass.name
+                        ),
+                        None if verb == "tests against" => "add .clear(0.0) after it".to_owned(),
                         None => "no pass writes it: add one before".to_owned(),
                     };
                     self.report(
@@ -60,7 +62,7 @@ fn wanted(pass: &PassDesc) -> Vec<(&str, &Place, &str)> {
     }
     for color in &pass.colors {
         if color.load == Load::Keep && !covers(pass) && pass.kind != PassKind::Clear {
-            wanted.push((&color.target, &color.at, "keeps"));
+            wanted.push((&color.target, &color.at, "draws over"));
         }
     }
     if let Some(depth) = &pass.depth

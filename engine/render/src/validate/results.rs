@@ -13,14 +13,16 @@ impl<S: FormatSupport> Checker<'_, S> {
             None => self.report(
                 &desc.file,
                 "the pipeline shows nothing".to_owned(),
-                "end with p.show(\"output\"), naming an `rgba8unorm` target".to_owned(),
+                "end with `output::add(p, \"hdr\")` of parts/output, or with p.show(\"output\"), \
+                 naming an `rgba8unorm` target"
+                    .to_owned(),
             ),
-            Some(output) => self.result(output, "rgba8unorm", |f| {
+            Some(output) => self.result(output, "`rgba8unorm`", |f| {
                 f.0 == wgpu::TextureFormat::Rgba8Unorm
             }),
         }
         if let Some(hdr) = &desc.hdr {
-            self.result(hdr, "rgba16float or rgba32float", |f| {
+            self.result(hdr, "`rgba16float` or `rgba32float`", |f| {
                 matches!(
                     f.0,
                     wgpu::TextureFormat::Rgba16Float | wgpu::TextureFormat::Rgba32Float
@@ -37,34 +39,36 @@ impl<S: FormatSupport> Checker<'_, S> {
         if target.shape != Shape::Flat || target.samples != 1 {
             self.report(
                 &result.at,
-                format!("`{}` must be flat, with one sample a texel", result.name),
-                None,
+                format!(
+                    "`{}` is {}: what is shown is flat, with one sample a texel",
+                    result.name,
+                    target.in_words()
+                ),
+                "copy or resolve it to a flat target first".to_owned(),
             );
         }
         if !fits(format) {
             self.report(
                 &result.at,
                 format!("`{}` is {format}; here it must be {wanted}", result.name),
-                None,
+                format!("draw it to a target of the format {wanted} in a last pass"),
             );
         }
         if size != TargetSize::Relative(1.0) {
             self.report(
                 &result.at,
                 format!("`{}` must have the output's size", result.name),
-                None,
+                "drop .size, .scale or .per_tile, or draw it to a target without them".to_owned(),
             );
         }
-        if !self
-            .desc
-            .passes
-            .iter()
-            .any(|pass| life::writes(pass).any(|name| name == result.name))
-        {
+        let mut passes = self.desc.passes.iter();
+        let written = passes.any(|pass| life::writes(pass).any(|name| name == result.name));
+        let told = self.unwritten.contains(target.name.as_str());
+        if !written && !told && !self.meant.contains(target.name.as_str()) {
             self.report(
                 &result.at,
                 format!("no pass writes `{}`", result.name),
-                None,
+                format!("add .writes(\"{}\") to the pass that makes it", result.name),
             );
         }
     }

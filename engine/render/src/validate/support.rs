@@ -1,6 +1,6 @@
 //! What the adapter says about formats and sizes; all that validation asks of the device.
 
-use wgpu::{TextureFormatFeatureFlags as Flags, TextureUsages as Usages};
+use wgpu::{StorageTextureAccess, TextureFormatFeatureFlags as Flags, TextureUsages as Usages};
 
 use crate::format::Format;
 use crate::gpu::Gpu;
@@ -13,14 +13,23 @@ pub trait FormatSupport {
     fn blendable(&self, format: Format) -> bool;
     /// Whether shaders can write targets of this format without the rasteriser.
     fn storable(&self, format: Format) -> bool;
+    /// Whether shaders can use targets of this format as storage textures with that access.
+    fn storable_as(&self, format: Format, access: StorageTextureAccess) -> bool;
+    /// Whether samplers can take means between the texels of targets of this format.
+    fn filterable(&self, format: Format) -> bool;
     /// Whether targets of this format can have several samples a texel.
     fn multisampled(&self, format: Format) -> bool;
     /// Whether the mean of several samples can be taken.
     fn resolvable(&self, format: Format) -> bool;
-    /// The most bytes a pixel that the colour targets of one pass may have together.
-    fn color_bytes(&self) -> u32;
+    /// The device's limits.
+    fn limits(&self) -> wgpu::Limits;
     /// The most bytes that a buffer may have.
-    fn buffer_bytes(&self) -> u64;
+    fn buffer_bytes(&self) -> u64 {
+        let limits = self.limits();
+        limits
+            .max_buffer_size
+            .min(limits.max_storage_buffer_binding_size)
+    }
 }
 
 impl Gpu {
@@ -48,6 +57,21 @@ impl FormatSupport for Gpu {
         self.usable(format, Usages::STORAGE_BINDING)
     }
 
+    fn storable_as(&self, format: Format, access: StorageTextureAccess) -> bool {
+        let flag = match access {
+            StorageTextureAccess::WriteOnly => Flags::STORAGE_WRITE_ONLY,
+            StorageTextureAccess::ReadOnly => Flags::STORAGE_READ_ONLY,
+            StorageTextureAccess::ReadWrite => Flags::STORAGE_READ_WRITE,
+            StorageTextureAccess::Atomic => Flags::STORAGE_ATOMIC,
+        };
+        self.storable(format) && self.flagged(format, flag)
+    }
+
+    fn filterable(&self, format: Format) -> bool {
+        let native = format.0.sample_type(None, Some(self.device.features()));
+        native == Some(wgpu::TextureSampleType::Float { filterable: true })
+    }
+
     fn multisampled(&self, format: Format) -> bool {
         self.flagged(format, Flags::MULTISAMPLE_X4)
     }
@@ -56,14 +80,7 @@ impl FormatSupport for Gpu {
         self.flagged(format, Flags::MULTISAMPLE_RESOLVE)
     }
 
-    fn color_bytes(&self) -> u32 {
-        self.device.limits().max_color_attachment_bytes_per_sample
-    }
-
-    fn buffer_bytes(&self) -> u64 {
-        let limits = self.device.limits();
-        limits
-            .max_buffer_size
-            .min(limits.max_storage_buffer_binding_size)
+    fn limits(&self) -> wgpu::Limits {
+        self.device.limits()
     }
 }

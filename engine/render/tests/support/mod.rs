@@ -173,6 +173,7 @@ pub fn pass(name: &str, kind: PassKind, shader: &str) -> PassDesc {
             path: shader.into(),
             at: at(),
             defines: Vec::new(),
+            define_places: Vec::new(),
         }),
         ..PassDesc::new(name, at(), kind)
     }

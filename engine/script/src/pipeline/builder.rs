@@ -155,12 +155,14 @@ impl Pipelines {
                 ..builder.desc.clone()
             });
         } else if result.is_ok() {
+            let text = compiler.sources.text(&self.path);
+            let place = match text.filter(|text| !text.trim().is_empty()) {
+                Some(_) => Place::new(self.path.as_str(), 1, 1),
+                None => Place::file(self.path.as_str()),
+            };
             problems.push(
-                Problem::new(
-                    Place::file(self.path.as_str()),
-                    "the file makes no pipeline",
-                )
-                .with_hint("begin with `let p = pipeline(\"Title\");`"),
+                Problem::new(place, "the file makes no pipeline")
+                    .with_hint("begin with `let p = pipeline(\"Title\");`"),
             );
         }
         problems.extend(result.err());
@@ -273,7 +275,7 @@ impl Builder {
                 continue;
             }
             let mut problem = Problem::new(
-                Place::file(Arc::clone(&self.desc.file.file)),
+                self.desc.file.clone(),
                 format!(
                     "the pipeline `{}` has no parameter `{name}`",
                     self.desc.name
@@ -310,7 +312,8 @@ pub(super) fn not_taken(builder: &Builder, name: &str) -> Result<(), Mistake> {
         Some((what, first)) => Err(Mistake::new(format!(
             "there is a {what} `{name}` already, in line {} of {}",
             first.line, first.file
-        ))),
+        ))
+        .with_hint("give one of them another name")),
         None => Ok(()),
     }
 }

@@ -160,8 +160,7 @@ fn parameter(
             first.at.line, first.at.file
         )));
     }
-    let (kind, default) = kind(arguments)?;
-    let mut parameter = Parameter {
+    let declared = |(kind, default): (ParameterKind, ParameterValue)| Parameter {
         name,
         at: at.clone(),
         description: String::new(),
@@ -169,6 +168,15 @@ fn parameter(
         kind,
         value: default.clone(),
         default,
+    };
+    let mut parameter = match kind(arguments) {
+        Ok(found) => declared(found),
+        Err(mistake) => {
+            // It is declared all the same, so that its uses are no mistakes too.
+            let any = (ParameterKind::Switch, ParameterValue::Switch(false));
+            builder.desc.parameters.push(declared(any));
+            return Err(mistake);
+        }
     };
     if let Some(setting) = builder.settings.get(&parameter.name) {
         match parameter.parse(&setting.to_string()) {

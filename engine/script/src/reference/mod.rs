@@ -5,7 +5,6 @@
 //! the shader library. `lightbench docs` prints them; copies lie in the crate's `docs/` folder, and
 //! a test holds them to what is made now.
 
-mod adapter;
 mod functions;
 mod parts;
 mod pipelines;

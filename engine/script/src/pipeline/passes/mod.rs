@@ -105,7 +105,8 @@ fn begin(
                 return Err(Mistake::new(format!(
                     "there is a pass `{name}` already, in line {} of {}",
                     first.at.line, first.at.file
-                )));
+                ))
+                .with_hint("give one of them another name"));
             }
             Ok(())
         });
@@ -248,4 +249,5 @@ fn only_for(method: &str, wanted: &str, found: &PassKind) -> Mistake {
         "`.{method}` belongs to a `{wanted}` pass, and this is a `{}` pass",
         found.name()
     ))
+    .with_hint(format!("remove it, or write `p.{wanted}(…)`"))
 }

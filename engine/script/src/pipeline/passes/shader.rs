@@ -67,6 +67,7 @@ fn set(open: Open, path: String) -> Result<(), Mistake> {
         path,
         at: open.at,
         defines: Vec::new(),
+        define_places: Vec::new(),
     });
     Ok(())
 }
@@ -83,5 +84,6 @@ fn define(open: Open, define: Define) -> Result<(), Mistake> {
         )));
     }
     shader.defines.push(define);
+    shader.define_places.push(open.at);
     Ok(())
 }

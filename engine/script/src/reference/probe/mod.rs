@@ -12,12 +12,12 @@ use lightbench_assets::files::Files;
 use lightbench_render::validate::validate;
 use lightbench_render::{PipelineDesc, Problem, Problems};
 
-use super::adapter::EveryAdapter;
 use crate::limits::Limits;
 use crate::names::Entry;
 use crate::pipeline::Workshop;
 use crate::settings::Settings;
 use arguments::{Argument, values, with_other_texts};
+use lightbench_render::validate::EveryAdapter;
 use sites::{Site, call};
 
 /// The file that messages name.

@@ -1,12 +1,14 @@
 //! An adapter for checks without one.
 
-use lightbench_render::Format;
-use lightbench_render::reflection::SampleKind;
-use lightbench_render::validate::FormatSupport;
+use wgpu::StorageTextureAccess;
+
+use super::FormatSupport;
+use crate::format::Format;
+use crate::reflection::SampleKind;
 
 /// What a description is checked against where no adapter is asked: all formats can be drawn to,
 /// and the limits are those of WebGPU ("WebGPU", W3C, section 3.6.2).
-pub(super) struct EveryAdapter;
+pub struct EveryAdapter;
 
 impl FormatSupport for EveryAdapter {
     fn renderable(&self, _: Format) -> bool {
@@ -21,6 +23,14 @@ impl FormatSupport for EveryAdapter {
         !format.is_depth()
     }
 
+    fn storable_as(&self, format: Format, _: StorageTextureAccess) -> bool {
+        self.storable(format)
+    }
+
+    fn filterable(&self, format: Format) -> bool {
+        SampleKind::of_format(format.0) == SampleKind::Float
+    }
+
     fn multisampled(&self, format: Format) -> bool {
         matches!(
             SampleKind::of_format(format.0),
@@ -32,11 +42,7 @@ impl FormatSupport for EveryAdapter {
         SampleKind::of_format(format.0) == SampleKind::Float
     }
 
-    fn color_bytes(&self) -> u32 {
-        32
-    }
-
-    fn buffer_bytes(&self) -> u64 {
-        128 << 20
+    fn limits(&self) -> wgpu::Limits {
+        wgpu::Limits::default()
     }
 }
