@@ -278,8 +278,9 @@ fn the_shipped_experiments_run() {
     let small = ["--set", "width=80", "--set", "lights=16"];
     let pictures = ["run", "compare_culling", "--set", "pictures=true"];
     let ran = project.run(&[&pictures[..], &small].concat()).succeeded();
-    // A title, a blank line, a head, and a row and a picture for each of seven cullings.
-    assert_eq!(ran.stdout.lines().count(), 3 + 2 * 7, "{}", ran.all());
+    // A title, a blank line, a head, a row for each of eight cullings; a blank line, a head, and a
+    // picture for each.
+    assert_eq!(ran.stdout.lines().count(), 3 + 8 + 2 + 8, "{}", ran.all());
     assert!(project.file("out/culling_light_volumes.png").exists());
     // Without a project everything runs that writes no picture.
     let folder = tempfile::tempdir().unwrap();
