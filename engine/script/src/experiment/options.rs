@@ -6,6 +6,7 @@ use rhai::{Dynamic, Map};
 use crate::api::{Arguments, Mistake, as_number};
 use crate::names::list;
 use crate::settings::{SettingValue, Settings};
+use crate::spelling::spell;
 
 /// The options of one call.
 pub(super) struct Options<'a, 'b, 'c, 'v, 'd> {
@@ -129,7 +130,11 @@ impl<'a, 'b, 'c, 'v, 'd> Options<'a, 'b, 'c, 'v, 'd> {
 
     /// The mistake of an option of the wrong kind.
     pub(super) fn wrong(&self, name: &str, wanted: &str) -> Mistake {
-        let given = self.value(name).map(|value| self.arguments.describe(value));
+        // An array is of the right kind: what is in it tells what is wrong.
+        let given = self.value(name).map(|value| match spell(value) {
+            Some(spelled) if value.is_array() => format!("`{spelled}`"),
+            _ => self.arguments.describe(value),
+        });
         Mistake::new(format!(
             "`{name}` of `{}` must be {wanted}, not {}",
             self.call,

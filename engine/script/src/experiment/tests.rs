@@ -288,7 +288,7 @@ fn mistakes_name_their_line_and_the_way_out() {
         ),
         (
             "draw(\"s\", \"p\", #{ size: [0, 4] });",
-            &["`size` of `draw` must be width and height"],
+            &["`size` of `draw` must be width and height", "not `[0, 4]`"],
         ),
         (
             "draw(\"s\", \"p\", #{ frame: 1.5 });",
