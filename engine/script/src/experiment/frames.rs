@@ -152,7 +152,8 @@ fn look(api: &mut Api) {
          each target that a pass wrote, in the order of the passes. The map has `pass`, `target`, \
          `mip`, `layer`, `sample` (`()` for targets with one), `stencil` (whether that is what it \
          tells of), `before` and `after`: arrays with a number for each channel. `before` is `()` \
-         where the frame had not written the target yet.",
+         where the frame had not written the target yet. In targets of another size it is the texel \
+         at the same place of the picture.",
         |frame: Frame, arguments| {
             let pixel = pixel(arguments, frame.shot.size)?;
             let values = frame
