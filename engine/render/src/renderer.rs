@@ -167,9 +167,11 @@ impl Renderer {
     }
 
     /// Tells the renderer that another world and other assets come next. Meshes and textures that
-    /// both scenes share, by their revision, stay on the device.
+    /// both scenes share, by their revision, stay on the device. What was seen of the last scene is
+    /// no earlier view of the next.
     pub fn reset_scene(&mut self) {
         self.scene.reset();
+        self.views = Views::default();
     }
 
     /// What had to be changed for the scene to fit the device, once.

@@ -388,6 +388,11 @@ impl Arguments<'_, '_, '_, '_> {
         ))
     }
 
+    /// A value in plain words.
+    pub(crate) fn describe(&self, value: &Dynamic) -> String {
+        describe(self.context.engine(), value)
+    }
+
     fn name(&self, index: usize) -> &str {
         // A property is written without arguments: what is assigned bears the property's name.
         self.entry
