@@ -1,5 +1,7 @@
 //! A compiled pipeline: what [`crate::compile::Compiler`] builds and [`crate::record`] runs.
 
+use lightbench_assets::ReflectionModels;
+
 use crate::attachments::Attachments;
 use crate::binding::{EngineBuffer, Source};
 use crate::compile::DrawPipeline;
@@ -9,6 +11,7 @@ use crate::gpu::Gpu;
 use crate::life::Lives;
 use crate::parameters::ParameterBlock;
 use crate::queries::Measured;
+use crate::scene::ReplacedModels;
 use crate::targets::Targets;
 
 /// The GPU pipelines of a pass.
@@ -110,6 +113,10 @@ impl EngineBuffers<'_> {
 pub struct CompiledPass {
     /// Its GPU pipelines.
     pub pipelines: PassPipelines,
+    /// The same for scenes with reflection models beside the default one, where the pass lights
+    /// surfaces that another pass has drawn. Geometry passes choose by material instead: see
+    /// [`crate::variant::Variant`].
+    pub for_other_models: Option<PassPipelines>,
     /// What group 1 holds.
     pub sources: Vec<(u32, Source)>,
     /// The layout of group 1.
@@ -136,6 +143,7 @@ impl CompiledPass {
     ) -> Self {
         Self {
             pipelines,
+            for_other_models: None,
             sources,
             target_layout,
             target_group: None,
@@ -143,6 +151,15 @@ impl CompiledPass {
             attachments: Attachments::default(),
             workgroups: [1; 3],
             list: None,
+        }
+    }
+
+    /// Its GPU pipelines for a scene. `other_models` is whether it has reflection models beside the
+    /// default one.
+    pub fn pipelines(&self, other_models: bool) -> &PassPipelines {
+        match &self.for_other_models {
+            Some(pipelines) if other_models => pipelines,
+            _ => &self.pipelines,
         }
     }
 
@@ -332,6 +349,10 @@ pub struct Pipeline {
     pub(crate) lists: Vec<ListKey>,
     /// The lists of lights that its lights passes need, each once.
     pub(crate) light_lists: Vec<Lights>,
+    /// The reflection models that it carries.
+    pub(crate) models: ReflectionModels,
+    /// What was told of materials that are drawn with another model.
+    pub(crate) told_models: ReplacedModels,
     lives: Lives,
     targets: Option<Targets>,
     engine_revision: u64,
@@ -365,6 +386,8 @@ impl Pipeline {
         }
         Self {
             lives: Lives::of(&desc),
+            models: desc.reflection_models(),
+            told_models: ReplacedModels::default(),
             grown: vec![0; desc.buffers.len()],
             desc,
             declared,

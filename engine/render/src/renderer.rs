@@ -110,7 +110,8 @@ impl Renderer {
         self.scene.reset();
     }
 
-    /// What had to be changed for the scene to fit the device, once.
+    /// What had to be changed for the scene to fit the device, and materials whose reflection model a
+    /// pipeline does not carry, once.
     pub fn take_warnings(&mut self) -> Vec<String> {
         self.scene.take_warnings()
     }
@@ -144,13 +145,17 @@ impl Renderer {
 
         let started = Instant::now();
         systems::update_computed(world, assets.mesh_bounds());
-        self.scene.sync_assets(assets).map_err(RenderError::Scene)?;
+        self.scene
+            .sync_assets(assets, pipeline.models)
+            .map_err(RenderError::Scene)?;
+        self.tell_models(pipeline);
         let (copying, ()) = SystemTime::of("changed rows", || self.scene.sync_world(world));
         let request = FrameRequest {
             view: *view,
             size: (width, height),
             time: time as f32,
             index: self.index,
+            models: pipeline.models,
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
         };
@@ -185,6 +190,7 @@ impl Renderer {
             frame: &self.frame,
             meshes: &self.scene.meshes,
             scene: &group,
+            other_models: self.scene.has_other_models(),
         };
         record(
             pipeline,
@@ -214,6 +220,19 @@ impl Renderer {
         self.serial = self.serial.wrapping_add(1);
         self.index = self.index.wrapping_add(1);
         Ok(&self.statistics)
+    }
+
+    /// Warns once where a pipeline does not carry the reflection models of the scene's materials.
+    fn tell_models(&mut self, pipeline: &mut Pipeline) {
+        let replaced = self.scene.replaced_models();
+        self.statistics.replaced_models = replaced;
+        if pipeline.told_models != replaced {
+            pipeline.told_models = replaced;
+            if replaced.total() > 0 {
+                let name = &pipeline.desc.name;
+                self.scene.warn(format!("{name}: {replaced}"));
+            }
+        }
     }
 
     /// As [`Renderer::render`], but waits for the counters of pipelines whose buffers may be too

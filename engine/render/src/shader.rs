@@ -152,6 +152,28 @@ impl ShaderComposer {
         hasher.finish()
     }
 
+    /// Whether a shader's text, or that of a module which it imports, directly or not, has a word.
+    pub fn mentions(&self, text: &str, word: &str) -> bool {
+        let mut texts = vec![text];
+        let mut modules: Vec<(&String, &String)> = self.module_files.iter().collect();
+        while let Some(text) = texts.pop() {
+            if text.contains(word) {
+                return true;
+            }
+            modules.retain(|(name, file)| {
+                let imported = imports(text, name);
+                texts.extend(
+                    self.module_texts
+                        .get(*file)
+                        .filter(|_| imported)
+                        .map(String::as_str),
+                );
+                !imported
+            });
+        }
+        false
+    }
+
     /// The composer looks for a module only where something of it is used; a misspelt import of an
     /// unused one is a mistake all the same.
     fn check_imports(&self, path: &str, text: &str) -> Result<(), Problem> {

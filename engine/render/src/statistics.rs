@@ -4,6 +4,7 @@
 
 use crate::description::{Blend, Load, PassDesc, PassKind, Read, Slice};
 use crate::pipeline::Pipeline;
+use crate::scene::ReplacedModels;
 use crate::targets::Targets;
 
 /// The cost of one pass in one frame.
@@ -57,6 +58,9 @@ pub struct FrameStatistics {
     pub uploaded_bytes: u64,
     /// Memory of all targets and buffers of the pipeline.
     pub target_bytes: u64,
+    /// Materials that are drawn with another reflection model than they ask for, since the pipeline
+    /// does not carry theirs.
+    pub replaced_models: ReplacedModels,
     /// Memory that targets would take beyond that if none shared its texture with another.
     pub saved_bytes: u64,
 }

@@ -281,7 +281,7 @@ fn a_mistake_in_a_module_names_the_module() {
         .unwrap();
     let line = shipped
         .lines()
-        .position(|line| line.contains("let n_dot_l"))
+        .position(|line| line.contains("let n_dot_l = dot("))
         .unwrap()
         + 1;
     workshop.write(

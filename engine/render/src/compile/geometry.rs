@@ -2,7 +2,7 @@
 
 use lightbench_assets::files::Files;
 
-use super::state::{State, marking, stencil_mark, stencil_test};
+use super::state::{DrawPipeline, State, marking, stencil_mark, stencil_test};
 use super::{Compiler, FULLSCREEN_VERTEX, GEOMETRY_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{Faces, Geometry, PassDesc, PipelineDesc};
 use crate::pipeline::{GeometryPipelines, MaskPipelines, PassPipelines};
@@ -19,8 +19,15 @@ impl Compiler {
         geometry: &Geometry,
         layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
-        let mut variants = Vec::with_capacity(Variant::COUNT);
+        let mut variants: Vec<DrawPipeline> = Vec::with_capacity(Variant::COUNT);
+        let other_models = self.has_other_models(desc, pass);
         for variant in Variant::all() {
+            // The variant with the default model comes first in the table.
+            let plain = variants.get(variant.with_default_model().index());
+            if let Some(plain) = plain.filter(|_| variant.other_model() && !other_models) {
+                variants.push(plain.clone());
+                continue;
+            }
             // Without outputs and without holes there is nothing for a fragment stage to do.
             let outputs = !pass.colors.is_empty() || !pass.updates.is_empty();
             let fragment = pass

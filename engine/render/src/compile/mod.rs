@@ -27,6 +27,7 @@ use crate::problem::{Problem, Problems};
 use crate::reflection::{Reflection, reflect};
 use crate::shader::{Shader, ShaderComposer};
 use crate::validate::validate;
+use crate::variant::REFLECTION_MODELS;
 use cache::PipelineCache;
 
 pub use state::DrawPipeline;
@@ -241,11 +242,35 @@ impl Compiler {
                 immediate_size: 0,
             });
         let layout = PassLayout { layout, key };
-        let pipelines = match &pass.kind {
-            PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, &layout),
-            PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
-            PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
-            PassKind::Compute(_) => self.compute(files, pass, &layout),
+        let pipelines = self.pipelines(files, desc, pass, &layout).map_err(one)?;
+        let mut compiled = CompiledPass::new(pipelines, sources, target_layout, parameters);
+        let lights = matches!(
+            pass.kind,
+            PassKind::Lights(_) | PassKind::Fullscreen | PassKind::Compute(_)
+        );
+        if lights && self.has_other_models(desc, pass) {
+            let mut pass = pass.clone();
+            if let Some(shader) = &mut pass.shader {
+                shader.defines.push(Define::flag(REFLECTION_MODELS));
+            }
+            let pipelines = self.pipelines(files, desc, &pass, &layout).map_err(one)?;
+            compiled.for_other_models = Some(pipelines);
+        }
+        Ok(compiled)
+    }
+
+    fn pipelines(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        layout: &PassLayout,
+    ) -> Result<PassPipelines, Problem> {
+        match &pass.kind {
+            PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, layout),
+            PassKind::Lights(lights) => self.lights(files, desc, pass, lights, layout),
+            PassKind::Fullscreen => self.fullscreen(files, desc, pass, layout),
+            PassKind::Compute(_) => self.compute(files, pass, layout),
             PassKind::Mips { target, reduction } => {
                 self.mips(files, desc, pass, &target.target, *reduction)
             }
@@ -254,12 +279,20 @@ impl Compiler {
             | PassKind::Resolve { .. }
             | PassKind::History { .. } => Ok(PassPipelines::None),
         }
-        .map_err(one)?;
-        Ok(CompiledPass::new(
-            pipelines,
-            sources,
-            target_layout,
-            parameters,
-        ))
+    }
+
+    /// Whether the pass draws reflection models beside the default one, so that it needs variants
+    /// for them: the pipeline carries some, and the shader tells them apart.
+    fn has_other_models(&self, desc: &PipelineDesc, pass: &PassDesc) -> bool {
+        let carried = desc.reflection_models().has_others();
+        let shader = pass.shader.as_ref().filter(|_| carried);
+        let loaded = shader.and_then(|shader| {
+            let key = (shader.path.clone(), Vec::new(), shader.defines.clone());
+            self.shaders.get(&key)
+        });
+        let composer = self.composer.as_ref();
+        composer.zip(loaded).is_some_and(|(composer, loaded)| {
+            composer.mentions(&loaded.shader.text, REFLECTION_MODELS)
+        })
     }
 }

@@ -8,7 +8,7 @@ mod object_lights;
 mod objects;
 
 use glam::{Mat4, Vec3};
-use lightbench_assets::Assets;
+use lightbench_assets::{Assets, ReflectionModels};
 use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
 use lightbench_world::{MeshId, World, WorldBounds};
 
@@ -175,6 +175,8 @@ pub struct FrameRequest<'a> {
     pub time: f32,
     /// Frames since the renderer began.
     pub index: u32,
+    /// The reflection models that the pipeline carries.
+    pub models: ReflectionModels,
     /// The lists of objects that passes draw.
     pub lists: &'a [ListKey],
     /// The lists of lights that passes draw.
@@ -206,6 +208,7 @@ impl Frame {
             assets,
             instances,
             lights,
+            models: request.models,
             view: &volume,
         };
         for (index, key) in request.lists.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Lists of objects: which, in which order, in which draw calls.
 
 use glam::Vec3;
-use lightbench_assets::Assets;
-use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
+use lightbench_assets::{Assets, Material, ReflectionModel, ReflectionModels};
+use lightbench_world::{MeshId, MeshRenderer, World, WorldBounds};
 
 use super::{Frame, ListKey, MeshDraw, Step, ViewVolume};
 use crate::description::{DrawList, DrawOrder};
@@ -15,6 +15,7 @@ pub(super) struct Objects<'a> {
     pub assets: &'a Assets,
     pub instances: &'a [InstanceData],
     pub lights: &'a [LightData],
+    pub models: ReflectionModels,
     pub view: &'a ViewVolume,
 }
 
@@ -67,7 +68,7 @@ impl Frame {
             if !r.visible[index] {
                 return;
             }
-            let traits = Traits::of(objects.assets, r.material[index]);
+            let traits = Traits::of(objects.assets.material(r.material[index]), objects.models);
             let wanted = match key.list {
                 DrawList::Opaque | DrawList::Casters => !traits.transparent,
                 DrawList::Transparent => traits.transparent,
@@ -77,7 +78,12 @@ impl Frame {
                 let mirrored = is_mirrored(&objects.instances[index]);
                 self.order.push(Entry {
                     distance: distance(key.order, objects, index),
-                    variant: Variant::new(traits.two_sided, traits.alpha_test, mirrored),
+                    variant: Variant::new(
+                        traits.two_sided,
+                        traits.alpha_test,
+                        mirrored,
+                        traits.other_model,
+                    ),
                     mesh: r.mesh[index],
                     row,
                 });
@@ -153,15 +159,17 @@ struct Traits {
     two_sided: bool,
     alpha_test: bool,
     transparent: bool,
+    other_model: bool,
 }
 
 impl Traits {
-    fn of(assets: &Assets, id: MaterialId) -> Self {
-        let material = assets.material(id);
+    fn of(material: Option<&Material>, models: ReflectionModels) -> Self {
+        let drawn = |m: &Material| m.reflection.nearest(models).model();
         Self {
             two_sided: material.is_some_and(|m| m.two_sided),
             alpha_test: material.is_some_and(|m| m.alpha_cutoff.is_some()),
             transparent: material.is_some_and(|m| m.is_transparent()),
+            other_model: material.is_some_and(|m| drawn(m) != ReflectionModel::BlinnPhong),
         }
     }
 }

@@ -27,6 +27,8 @@ pub struct Recording<'a> {
     pub meshes: &'a MeshPool,
     /// Group 0.
     pub scene: &'a wgpu::BindGroup,
+    /// Whether the scene has reflection models beside the default one.
+    pub other_models: bool,
 }
 
 /// What can be measured of each pass of a pipeline, in order.
@@ -86,7 +88,7 @@ pub fn record(
             queries,
             index,
         };
-        match (&desc.kind, &pass.pipelines) {
+        match (&desc.kind, pass.pipelines(recording.other_models)) {
             (PassKind::Compute(dispatch), PassPipelines::Compute { pipeline, .. }) => {
                 work.compute(dispatch, pipeline, encoder, &mut cost);
             }

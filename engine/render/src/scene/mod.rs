@@ -1,24 +1,25 @@
 //! The scene on the GPU: everything of group 0, uploaded only where it changed.
 
 mod buffer;
+mod materials;
 mod meshes;
 mod rows;
 mod textures;
 
-use lightbench_assets::Assets;
+use lightbench_assets::{Assets, ReflectionModels};
 use lightbench_world::World;
 
 pub use buffer::RowBuffer;
+pub use materials::ReplacedModels;
 pub use meshes::{MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
 use crate::frame::Frame;
 use crate::gpu::Gpu;
-use crate::gpu_data::{
-    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, MaterialData, NO_TEXTURE,
-};
+use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
 use crate::pipeline::EngineBuffers;
+use materials::MaterialRows;
 use rows::SceneRows;
 use textures::TexturePool;
 
@@ -31,7 +32,7 @@ pub struct Scene {
     textures: TexturePool,
     rows: SceneRows,
     frame: wgpu::Buffer,
-    materials: RowBuffer<MaterialData>,
+    materials: MaterialRows,
     instances: RowBuffer<InstanceData>,
     lights: RowBuffer<LightData>,
     drawn: RowBuffer<DrawnObject>,
@@ -70,7 +71,7 @@ impl Scene {
             textures: TexturePool::new(gpu),
             rows: SceneRows::default(),
             frame,
-            materials: RowBuffer::new(gpu, "materials"),
+            materials: MaterialRows::new(RowBuffer::new(gpu, "materials")),
             instances: RowBuffer::new(gpu, "instances"),
             lights: RowBuffer::new(gpu, "lights"),
             drawn: RowBuffer::new(gpu, "drawn objects"),
@@ -83,44 +84,44 @@ impl Scene {
         }
     }
 
-    /// Uploads meshes, textures and materials that changed. Warnings (a texture that had to be
-    /// resampled) are kept for [`Scene::take_warnings`].
+    /// Uploads meshes, textures and materials that changed; materials with the reflection models that
+    /// the pipeline carries, or the nearest to them. Warnings (a texture that had to be resampled) are
+    /// kept for [`Scene::take_warnings`].
     ///
     /// # Errors
     /// A sentence that says which asset the device can't hold.
-    pub fn sync_assets(&mut self, assets: &Assets) -> Result<(), String> {
-        if self.assets_revision == Some(assets.revision()) {
-            return Ok(());
-        }
-        self.meshes.sync(assets)?;
-        if self.textures.sync(assets, &mut self.warnings) {
-            self.group = None;
+    pub fn sync_assets(
+        &mut self,
+        assets: &Assets,
+        carried: ReflectionModels,
+    ) -> Result<(), String> {
+        if self.assets_revision != Some(assets.revision()) {
+            self.meshes.sync(assets)?;
+            if self.textures.sync(assets, &mut self.warnings) {
+                self.group = None;
+            }
+            self.assets_revision = Some(assets.revision());
         }
         let textures = &self.textures;
-        let slot = |texture: Option<lightbench_assets::TextureId>| {
-            texture.map_or(NO_TEXTURE, |id| textures.slot(id))
-        };
         self.materials
-            .replace(assets.materials().iter().map(|entry| {
-                let material = &entry.value;
-                MaterialData {
-                    base_color: material.base_color,
-                    specular: material.specular,
-                    emissive: material.emissive,
-                    power: material.power,
-                    base_color_texture: slot(material.base_color_texture),
-                    normal_texture: slot(material.normal_texture),
-                    alpha_cutoff: material.alpha_cutoff.unwrap_or(0.0),
-                    opacity: material.opacity,
-                }
-            }));
-        self.assets_revision = Some(assets.revision());
+            .sync(assets, carried, |texture| textures.slot(texture));
         Ok(())
+    }
+
+    /// Whether a material is drawn with a reflection model beside the default one.
+    pub fn has_other_models(&self) -> bool {
+        self.materials.other_models
+    }
+
+    /// How many materials are drawn with another reflection model than they ask for.
+    pub fn replaced_models(&self) -> ReplacedModels {
+        self.materials.replaced
     }
 
     /// Forgets what was uploaded, for a scene that takes another's place.
     pub fn reset(&mut self) {
         self.assets_revision = None;
+        self.materials.forget();
         self.meshes.forget();
         self.textures.forget();
         self.rows = SceneRows::default();
@@ -151,7 +152,7 @@ impl Scene {
         self.volumes.replace_if_changed(&frame.volumes);
         let mut grown = false;
         for flush in [
-            self.materials.flush(&self.gpu),
+            self.materials.rows.flush(&self.gpu),
             self.instances.flush(&self.gpu),
             self.lights.flush(&self.gpu),
             self.drawn.flush(&self.gpu),
@@ -180,7 +181,7 @@ impl Scene {
         [
             &self.frame,
             self.instances.buffer(),
-            self.materials.buffer(),
+            self.materials.rows.buffer(),
             self.lights.buffer(),
             self.drawn.buffer(),
             self.object_lights.buffer(),
@@ -239,7 +240,7 @@ impl Scene {
 
     /// Bytes of rows uploaded since the last call.
     pub fn take_uploaded_bytes(&mut self) -> u64 {
-        self.materials.take_uploaded()
+        self.materials.rows.take_uploaded()
             + self.instances.take_uploaded()
             + self.lights.take_uploaded()
             + self.drawn.take_uploaded()
@@ -247,7 +248,12 @@ impl Scene {
             + self.volumes.take_uploaded()
     }
 
-    /// What had to be changed to fit the device, once.
+    /// Keeps a warning for [`Scene::take_warnings`].
+    pub fn warn(&mut self, warning: String) {
+        self.warnings.push(warning);
+    }
+
+    /// What had to be changed to fit the device or the pipeline, once.
     pub fn take_warnings(&mut self) -> Vec<String> {
         std::mem::take(&mut self.warnings)
     }

@@ -5,6 +5,7 @@
 
 mod attachments;
 mod kinds;
+mod models;
 mod order;
 mod resources;
 mod results;
@@ -28,6 +29,7 @@ pub fn validate(desc: &PipelineDesc, support: &impl FormatSupport) -> Result<(),
         problems: Vec::new(),
     };
     checker.names();
+    checker.models();
     checker.targets();
     checker.buffers();
     for pass in &desc.passes {

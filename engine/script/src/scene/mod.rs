@@ -12,6 +12,7 @@ mod models;
 mod motion;
 mod parameters;
 mod recipes;
+mod reflection;
 mod saved;
 mod shapes;
 mod state;
