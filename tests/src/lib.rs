@@ -5,8 +5,8 @@
 // A test stops where something is wrong; there is nobody to hand an error to.
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc)]
 
-use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
+use lightbench::assets::{Assets, MaterialId, Progress, ReflectionModels};
 use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 
@@ -73,6 +73,25 @@ impl Studio {
             .render_whole(world, assets, &mut pipeline, &self.view, size, 0.0)
             .unwrap();
         pipeline
+    }
+
+    /// The reflection models that a pipeline says it carries.
+    pub fn models(&self, pipeline: &str, settings: &Settings) -> ReflectionModels {
+        let desc = load_pipeline(&self.files, pipeline, settings).unwrap_or_else(|e| panic!("{e}"));
+        desc.reflection_models()
+    }
+
+    /// Gives each material of the scene the nearest reflection model among some, as a pipeline does
+    /// that carries no others. Returns the assets as they were.
+    pub fn replace_models(&mut self, carried: ReflectionModels) -> Assets {
+        let before = self.scene.assets.clone();
+        for (index, entry) in before.materials().iter().enumerate() {
+            let mut material = entry.value.clone();
+            material.reflection = material.reflection.nearest(carried);
+            let id = MaterialId(index as u32);
+            self.scene.assets.replace_material(id, material).unwrap();
+        }
+        before
     }
 
     /// The linear picture of a frame.

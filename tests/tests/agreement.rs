@@ -1,6 +1,7 @@
 //! All pipelines give the same picture of opaque objects.
 #![allow(clippy::unwrap_used)]
 
+use lightbench::assets::ReflectionModels;
 use lightbench::assets::files::Files;
 use lightbench::lab::{HdrImage, LdrImage, diff};
 use lightbench::render::TargetImage;
@@ -108,18 +109,22 @@ const QUANTISATION: f64 = 0.0045;
 /// too bright at about this.
 const FLIP: f64 = 0.012;
 
+/// The setting of the format in which light is added up: blending of 32-bit floats is not everywhere.
+fn accumulation(portable: bool) -> String {
+    let float = if portable {
+        "rgba16float"
+    } else {
+        "rgba32float"
+    };
+    format!("accumulation={float}")
+}
+
 /// All pipelines on one scene, with what `portable` leaves of the adapter.
 fn agree(scene: &str, texts: &[&str], portable: bool) {
     let mut studio = Studio::on(gpu(portable), scene, &settings(texts));
     let mut pictures = Vec::new();
     for (name, surfaces, options) in PIPELINES {
-        // Blending of 32-bit floats is not everywhere.
-        let float = if portable {
-            "rgba16float"
-        } else {
-            "rgba32float"
-        };
-        let accumulation = format!("accumulation={float}");
+        let accumulation = accumulation(portable);
         let mut options = options.to_vec();
         options.push(&accumulation);
         let options = settings(&options);
@@ -128,11 +133,28 @@ fn agree(scene: &str, texts: &[&str], portable: bool) {
         pictures.push((name, surfaces, linear, output));
     }
     let find = |wanted: &str| pictures.iter().find(|(name, ..)| *name == wanted).unwrap();
-    let (_, _, forward, forward_output) = find("forward_single_pass");
+    let (_, _, carrying_all, carrying_all_output) = find("forward_single_pass");
     let (_, _, deferred, _) = find("deferred_shading");
     let bound = order_bound(studio.renderer.lights().len());
     println!("{scene} {texts:?} portable={portable}, bound {bound:.2e}");
     for (name, surfaces, linear, output) in &pictures {
+        // A pipeline that lacks a reflection model is held to forward shading of what it draws
+        // instead.
+        let carried = studio.models(name, &settings(&[]));
+        let replaced = if carried == ReflectionModels::all() {
+            None
+        } else {
+            let options = settings(&[&accumulation(portable)]);
+            let assets = studio.replace_models(carried);
+            let linear = studio.hdr("forward_single_pass", &options, SIZE);
+            let output = studio.output("forward_single_pass", &options, SIZE);
+            studio.scene.assets = assets;
+            Some((linear, output))
+        };
+        let (forward, forward_output) = match &replaced {
+            Some((linear, output)) => (linear, output),
+            None => (carrying_all, carrying_all_output),
+        };
         let reference = match surfaces {
             Surfaces::GBuffer => deferred,
             Surfaces::Exact | Surfaces::Added | Surfaces::Thin => forward,
@@ -176,6 +198,39 @@ fn on_many_lights() {
 #[test]
 fn on_the_cornell_box() {
     agree("cornell_box", &[], false);
+}
+
+/// Each reflection model through each pipeline, as plastic and as metal.
+#[test]
+fn on_all_reflection_models() {
+    agree("brdf_spheres", &["surface=plastic"], false);
+    agree("brdf_spheres", &["surface=gold"], false);
+}
+
+#[test]
+fn on_all_reflection_models_with_portable_features_only() {
+    agree("brdf_spheres", &["surface=gold"], true);
+}
+
+/// Deferred lighting carries no Fresnel term. What it draws instead differs from what was asked for,
+/// so that the comparison above is with something else; and it says so, once.
+#[test]
+fn a_model_that_a_pipeline_lacks_is_drawn_as_another_and_told() {
+    let mut studio = Studio::new("brdf_spheres", &settings(&["surface=gold"]));
+    let full = settings(&["accumulation=rgba32float"]);
+    let asked_for = studio.hdr("forward_single_pass", &full, SIZE);
+    assert_eq!(studio.renderer.take_warnings(), [] as [&str; 0]);
+    let drawn = studio.hdr("deferred_lighting", &full, SIZE);
+    let difference = mean_difference(&asked_for, &drawn);
+    assert!(difference > 4.0 * QUANTISATION, "{difference}");
+    let told = "deferred_lighting: 16 materials are drawn with another reflection model: \
+                8 of `beckmann` as `ward`, 8 of `ggx` as `ward`";
+    assert_eq!(studio.renderer.take_warnings(), [told]);
+
+    // The table of materials is another for each pipeline.
+    let again = studio.hdr("forward_single_pass", &full, SIZE);
+    assert_eq!(relative_difference(&asked_for, &again), 0.0);
+    assert_eq!(studio.renderer.take_warnings(), [] as [&str; 0]);
 }
 
 #[test]

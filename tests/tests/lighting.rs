@@ -139,6 +139,12 @@ fn deferred_shading_of_the_atrium_equals_the_cpu() {
     deferred_equals_the_cpu("atrium");
 }
 
+/// All reflection models, with tangents and coloured highlights, from the G-buffer.
+#[test]
+fn deferred_shading_of_all_reflection_models_equals_the_cpu() {
+    deferred_equals_the_cpu("brdf_spheres");
+}
+
 /// Forward shading sees the surface before the G-buffer rounds it. So it may differ from the CPU's
 /// light on the rounded surface by what rounding can change, and by no more.
 fn forward_equals_the_cpu_within_the_g_buffer(scene: &str) {
