@@ -9,7 +9,7 @@ use std::path::Path;
 use lightbench_assets::files::Files;
 use lightbench_render::description::*;
 use lightbench_render::{Compiler, Gpu, PipelineDesc, Problems, Renderer};
-use support::{deferred, forward, gpu, named, pass, read, target, writes};
+use support::{at, deferred, forward, gpu, named, pass, read, target, writes};
 
 /// Compiles on a device with the files of a project folder.
 struct Workshop {
@@ -41,6 +41,15 @@ impl Workshop {
             Err(problems) => problems,
             Ok(_) => panic!("the mistake was not found"),
         }
+    }
+}
+
+fn ability(name: &str, supported: bool) -> Ability {
+    Ability {
+        name: name.to_owned(),
+        at: at(),
+        supported,
+        text: "for a test".to_owned(),
     }
 }
 
@@ -105,6 +114,18 @@ fn every_mistake_in_a_description_is_named() {
         (
             |d| d.targets[2].size = TargetSize::Relative(0.5),
             "`g_albedo` and `hdr` differ in size, but one pass writes both",
+        ),
+        (
+            |d| d.abilities.push(ability("brdf_gxx", true)),
+            "there is no reflection model `gxx`\n    help: did you mean `ggx`?",
+        ),
+        (
+            |d| d.abilities.push(ability("brdf_lambert", false)),
+            "there is no reflection model `lambert`\n    help: the models are: blinn_phong, phong,",
+        ),
+        (
+            |d| d.abilities.push(ability("brdf_blinn_phong", false)),
+            "every pipeline carries `blinn_phong`",
         ),
         (|d| d.output = None, "the pipeline shows nothing"),
         (

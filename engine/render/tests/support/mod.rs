@@ -132,7 +132,7 @@ impl Bench {
     }
 }
 
-fn at() -> Place {
+pub fn at() -> Place {
     Place::new("test.rhai", 1, 1)
 }
 

@@ -306,7 +306,9 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
         (
             "supports(ability, text)",
             true,
-            "Says that the pipeline can do something, as `transparency` or `msaa`, and how.",
+            "Says that the pipeline can do something, as `transparency` or `msaa`, and how. With \
+             `brdf_ggx` and its like it says which reflection models it draws; others give way to the \
+             nearest of these.",
         ),
         (
             "lacks(ability, reason)",
