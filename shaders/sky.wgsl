@@ -8,5 +8,10 @@
 
 @fragment
 fn fragment_main() -> @location(0) vec4f {
+#ifdef COUNT_LIGHTS
+    // No light is evaluated for it.
+    return vec4f(0.0);
+#else
     return vec4f(scene::frame.sky, 1.0);
+#endif
 }

@@ -79,9 +79,9 @@ fn a_pixel_tells_what_each_pass_did_to_it() {
     let told = project().run(&[&STEPS[..], &["--pixel", "6,3"]].concat());
     let told = told.succeeded().all();
     for line in [
-        "first   sum     0.000000 0.000000 0.000000 0.000000  ->  6.000000 3.000000 0.250000 1.000000",
+        "first   sum     6.000000 3.000000 0.250000 1.000000",
         "second  sum     6.000000 3.000000 0.250000 1.000000  ->  8.000000 3.000000 0.250000 1.000000",
-        "show    output  0.000000 0.000000 0.000000 0.000000  ->  0.031373 0.011765 0.000000 0.003922",
+        "show    output  0.031373 0.011765 0.000000 0.003922",
     ] {
         assert!(told.contains(line), "{told}");
     }
@@ -103,7 +103,10 @@ fn the_first_pass_that_makes_no_number_is_named() {
     let good = SECOND.replace("zero / zero", "2.0");
     project.write("shaders/second.wgsl", good);
     let told = find();
-    assert!(told.contains("every value is a finite number"), "{told}");
+    assert!(
+        told.contains("every value that a pass writes is a finite number"),
+        "{told}"
+    );
 }
 
 #[test]

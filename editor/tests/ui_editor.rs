@@ -10,6 +10,7 @@ use egui::{Key, pos2};
 use egui_kittest::kittest::Queryable as _;
 use lightbench::render::readback::read_bytes;
 use lightbench::render::{Gpu, GpuOptions};
+use lightbench_editor::ui::workbench::Workbench;
 
 use ui_support::{Bench, PATIENCE};
 
@@ -50,12 +51,12 @@ fn choosing_a_pipeline_swaps_it_and_keeps_scene_camera_and_time() {
     assert_eq!(workbench.scenes.shown(), Some("cornell_box"));
 
     // Back by its key: at once, and without compiling.
-    let builds = workbench.pipelines.builds();
+    let swaps = workbench.pipelines.swaps();
     bench.harness.key_press(Key::Num4);
     bench.harness.step();
     assert_eq!(bench.shown(), "deferred_shading");
     assert_eq!(bench.picture(), deferred);
-    assert_eq!(bench.harness.state().workbench.pipelines.builds(), builds);
+    assert_eq!(bench.harness.state().workbench.pipelines.swaps(), swaps);
     bench.harness.key_press(Key::Num6);
     bench.harness.step();
     assert_eq!(bench.shown(), "forward_single_pass");
@@ -141,7 +142,7 @@ fn a_saved_pipeline_script_changes_the_picture() {
 fn a_parameter_widget_changes_the_picture_without_compiling() {
     let mut bench = Bench::open();
     let first = bench.picture();
-    let builds = bench.harness.state().workbench.pipelines.builds();
+    let swaps = bench.harness.state().workbench.pipelines.swaps();
     // The pipeline has more parameters than fit in the panel.
     bench
         .harness
@@ -160,7 +161,7 @@ fn a_parameter_widget_changes_the_picture_without_compiling() {
             .zip(&first)
             .all(|(after, before)| after >= before)
     );
-    assert_eq!(bench.harness.state().workbench.pipelines.builds(), builds);
+    assert_eq!(bench.harness.state().workbench.pipelines.swaps(), swaps);
     bench
         .harness
         .get_by_role_and_label(Role::Button, "Reset")
@@ -247,21 +248,27 @@ fn another_device_takes_over_with_scene_camera_and_time() {
         .look(lightbench::world::glam::Vec2::new(0.1, 0.0));
     workbench.clock.step();
     let size = (160, 90);
-    workbench.tick(Instant::now());
-    let before = workbench.draw(size, Instant::now()).unwrap();
-    let before = read_bytes(workbench.gpu(), &before.texture).unwrap();
+    let before = picture(workbench, size);
     let time = workbench.clock.time();
 
     let gpu = Gpu::open(&GpuOptions::default()).unwrap();
     workbench.move_to(gpu);
     workbench.resolution.adaptive = false;
+    assert_eq!(picture(workbench, size), before);
+    assert_eq!(workbench.clock.time(), time);
+}
+
+/// The picture at that size, once it shows the present state.
+fn picture(workbench: &mut Workbench, size: (u32, u32)) -> Vec<u8> {
     let began = Instant::now();
-    while workbench.pipelines.shown().is_none() {
+    loop {
         workbench.tick(Instant::now());
-        assert!(began.elapsed() < PATIENCE);
+        let picture = workbench.draw(size, Instant::now());
+        let drawn = workbench.picture_is_current() && workbench.drawn_size() == Some(size);
+        if let Some(picture) = picture.filter(|_| drawn) {
+            return read_bytes(workbench.gpu(), &picture.texture).unwrap();
+        }
+        assert!(began.elapsed() < PATIENCE, "no picture");
         std::thread::sleep(Duration::from_millis(5));
     }
-    let after = workbench.draw(size, Instant::now()).unwrap();
-    assert_eq!(read_bytes(workbench.gpu(), &after.texture).unwrap(), before);
-    assert_eq!(workbench.clock.time(), time);
 }

@@ -20,7 +20,7 @@ fn fragment_main(
     let fragment = surface::fragment_surface(in, front_facing);
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - fragment.position);
 
-    let distance_ahead = -(scene::frame.view * vec4f(fragment.position, 1.0)).z;
+    let distance_ahead = scene::distance_ahead(fragment.position);
     let list = cluster_lists[clusters::cluster_of(in.clip_position.xy, distance_ahead)];
     var radiance = fragment.emissive;
     for (var i = list.x; i < list.x + list.y; i++) {

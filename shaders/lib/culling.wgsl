@@ -66,6 +66,22 @@ fn light_sphere(light: scene::Light) -> Sphere {
     return Sphere((scene::frame.view * vec4f(ball.center, 1.0)).xyz, ball.radius);
 }
 
+// Whether a light with a range may reach a point: within the range, and for spots within the outer
+// cone. Where not, it adds nothing there.
+fn reaches(light: scene::Light, point: vec3f) -> bool {
+    let offset = light.position - point;
+    let distance_squared = dot(offset, offset);
+    if distance_squared >= light.range * light.range {
+        return false;
+    }
+    if light.kind != scene::LIGHT_SPOT {
+        return true;
+    }
+    // Not divided by the distance, which may vanish.
+    let along = -dot(light.direction, offset);
+    return along * light.angle_scale + light.angle_offset * sqrt(distance_squared) >= 0.0;
+}
+
 // The planes of a rectangle of pixels, `from` inclusive, `to` exclusive.
 fn rectangle_sides(from_pixel: vec2f, to_pixel: vec2f, resolution: vec2f) -> Sides {
     let scale = vec2f(1.0 / scene::frame.projection[0][0], 1.0 / scene::frame.projection[1][1]);

@@ -1,7 +1,8 @@
 // What the vertex stage of a geometry pass hands to the fragment stage.
 //
 // In:  mesh vertices, in two streams: positions alone, then everything else.
-// Out: `Vertex`, `VertexOutput` and `transform_vertex`, for `#import lightbench::geometry`.
+// Out: `Vertex`, `VertexOutput` and `transform_vertex`; and the same with a mark that the whole
+//      triangle has, for `#import lightbench::geometry`.
 #define_import_path lightbench::geometry
 
 #import lightbench::scene
@@ -32,4 +33,22 @@ fn transform_vertex(vertex: Vertex, drawn: u32) -> VertexOutput {
     out.uv = vertex.uv;
     out.drawn = drawn;
     return out;
+}
+
+// A vertex with a number that is the same for its whole triangle: the fragment stage takes a
+// `VertexOutput`, and `@location(5) @interpolate(flat) mark: u32` beside it.
+struct MarkedOutput {
+    @builtin(position) @invariant clip_position: vec4f,
+    @location(0) world_position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv: vec2f,
+    @location(4) @interpolate(flat) drawn: u32,
+    @location(5) @interpolate(flat) mark: u32,
+}
+
+fn with_mark(out: VertexOutput, mark: u32) -> MarkedOutput {
+    return MarkedOutput(
+        out.clip_position, out.world_position, out.normal, out.tangent, out.uv, out.drawn, mark,
+    );
 }

@@ -14,6 +14,9 @@
 #import lightbench::scene
 #import lightbench::surface
 #import lightbench::brdf
+#ifdef COUNT_LIGHTS
+#import lightbench::light_counts
+#endif
 
 // Share of the intensity that arrives per square metre from distance d: window / d².
 fn distance_falloff(distance_squared: f32, range: f32) -> f32 {
@@ -91,6 +94,13 @@ struct ArrivingLight {
     grazing: vec3f,                     // zero in models without a Fresnel term
 }
 
+#ifdef COUNT_LIGHTS
+// For heat maps a light is what it counts as.
+fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> ArrivingLight {
+    let count = light_counts::count(light, point.position);
+    return ArrivingLight(vec3f(count), vec3f(0.0), vec3f(0.0));
+}
+#else
 fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> ArrivingLight {
     let nothing = ArrivingLight(vec3f(0.0), vec3f(0.0), vec3f(0.0));
     if light.kind == scene::LIGHT_AMBIENT {
@@ -125,6 +135,7 @@ fn arriving_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f
         mirrored.white * received,
     );
 }
+#endif
 
 fn evaluate_light(light: scene::Light, point: surface::Surface, to_viewer: vec3f) -> vec3f {
     let arriving = arriving_light(light, point, to_viewer);

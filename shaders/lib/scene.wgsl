@@ -31,9 +31,9 @@ struct Instance {
     world_row_y: vec4f,
     world_row_z: vec4f,
     material: u32,
-    reserved_a: u32,
-    reserved_b: u32,
-    reserved_c: u32,
+    first_index: u32,                   // of its mesh, in all meshes' indices
+    base_vertex: u32,                   // what is added to each of these indices
+    reserved: u32,
 }
 
 // One object that this frame draws.
@@ -41,7 +41,7 @@ struct DrawnObject {
     instance: u32,
     first_light: u32,                   // its list in object_lights
     light_count: u32,
-    reserved: u32,
+    layer: u32,                         // which of the pass's .layers it is in, from 0
 }
 
 struct Material {
@@ -138,11 +138,22 @@ fn clip_position(position: vec3f) -> vec4f {
     return frame.view_projection * vec4f(position, 1.0);
 }
 
+// Distance along the view, metres.
+fn distance_ahead(position: vec3f) -> f32 {
+    return -(frame.view * vec4f(position, 1.0)).z;
+}
+
 // World position of a pixel from its reversed depth. `pixel` is @builtin(position).xy.
 fn position_from_depth(pixel: vec2f, resolution: vec2f, depth: f32) -> vec3f {
     let ndc = vec2f(pixel.x / resolution.x * 2.0 - 1.0, 1.0 - pixel.y / resolution.y * 2.0);
     let world = frame.inverse_view_projection * vec4f(ndc, depth, 1.0);
     return world.xyz / world.w;
+}
+
+// The direction of a pixel's line of sight in view space: x and y at a distance of 1 along the view.
+fn view_direction(pixel: vec2f, resolution: vec2f) -> vec3f {
+    let ndc = vec2f(pixel.x / resolution.x * 2.0 - 1.0, 1.0 - pixel.y / resolution.y * 2.0);
+    return vec3f(ndc.x / frame.projection[0][0], ndc.y / frame.projection[1][1], -1.0);
 }
 
 // A material texture, with the gradients that the caller took in uniform control flow.

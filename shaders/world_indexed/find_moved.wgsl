@@ -1,7 +1,7 @@
 // World-space light indexing, first pass: which lights moved since the frame before.
 //
 // In:  the lights; the sphere that each had in the frame before.
-// Out: the indices of those whose sphere is another; the lights that reach everything.
+// Out: the indices of those whose sphere is another.
 // Follows the world-space light indexing of Just Cause 2 (Persson 2013, "Practical Clustered
 // Shading", history): most lights stand still, so that only a few cells change in a frame.
 #import lightbench::scene
@@ -10,8 +10,6 @@
 @group(1) @binding(0) var<storage, read> last_spheres: array<vec4f>;
 // How many, then which.
 @group(1) @binding(1) var<storage, read_write> moved_lights: array<atomic<u32>>;
-// How many, then which.
-@group(1) @binding(2) var<storage, read_write> lights_everywhere: array<u32>;
 
 @compute @workgroup_size(64)
 fn compute_main(@builtin(global_invocation_id) thread: vec3u) {
@@ -30,16 +28,5 @@ fn compute_main(@builtin(global_invocation_id) thread: vec3u) {
             let at = atomicAdd(&moved_lights[0], 1u);
             atomicStore(&moved_lights[1u + at], index);
         }
-    }
-    if index == 0u {
-        // One after the other, so that they stay in order; there are few.
-        var count = 0u;
-        for (var i = 0u; i < scene::frame.light_count; i++) {
-            if scene::lights[i].kind >= scene::LIGHT_DIRECTIONAL {
-                count += 1u;
-                lights_everywhere[count] = i;
-            }
-        }
-        lights_everywhere[0] = count;
     }
 }

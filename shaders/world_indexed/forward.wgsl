@@ -15,7 +15,7 @@ struct Parameters {
 }
 
 @group(1) @binding(0) var<storage, read> cell_lists: array<u32>;
-@group(1) @binding(1) var<storage, read> lights_everywhere: array<u32>;
+@group(1) @binding(1) var<storage, read> unbounded_lights: array<u32>;
 @group(2) @binding(0) var<uniform> parameters: Parameters;
 
 @fragment
@@ -27,8 +27,8 @@ fn fragment_main(
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - fragment.position);
 
     var radiance = fragment.emissive;
-    for (var i = 1u; i <= lights_everywhere[0]; i++) {
-        let light = scene::lights[lights_everywhere[i]];
+    for (var i = 1u; i <= unbounded_lights[0]; i++) {
+        let light = scene::lights[unbounded_lights[i]];
         radiance += lighting::evaluate_light(light, fragment, to_viewer);
     }
     let cell = world_grid::cell_index(fragment.position, parameters.cell_size);

@@ -1,18 +1,16 @@
 //! Each kind of pass, and what passes can do with targets, by numbers computed here.
 #![allow(clippy::unwrap_used)]
 
-use lightbench::assets::Progress;
-use lightbench::assets::files::Files;
-use lightbench::render::{Pipeline, Renderer, View};
-use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
-use lightbench_tests::gpu;
+use lightbench::render::{Pipeline, PipelineDesc, Renderer, View};
+use lightbench::script::{Scene, Settings, load_pipeline};
+use lightbench_tests::{Workshop, gpu};
 
 /// A project with one pipeline, and a scene with six lights that hang over one another.
 struct Bench {
     renderer: Renderer,
-    files: Files,
+    workshop: Workshop,
+    desc: PipelineDesc,
     scene: Scene,
-    folder: tempfile::TempDir,
     frame: u32,
 }
 
@@ -23,12 +21,6 @@ const PATTERN: &str =
     return vec4f(texel.x + 1000.0 * texel.y, 0.0, 0.0, 1.0);
 }";
 
-/// Reads `result`, so that it is needed.
-const SHOW: &str = "@group(1) @binding(0) var result: texture_2d<f32>;
-@fragment fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return textureLoad(result, vec2u(pixel.xy) % textureDimensions(result), 0);
-}";
-
 impl Bench {
     fn new(body: &str, shaders: &[(&str, &str)]) -> Self {
         Self::on(false, body, shaders)
@@ -36,50 +28,20 @@ impl Bench {
 
     /// `body` declares a float target `result` and fills it.
     fn on(portable: bool, body: &str, shaders: &[(&str, &str)]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let write = |path: &str, text: &str| {
-            let path = folder.path().join(path);
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(path, text).unwrap();
-        };
-        write("shaders/pattern.wgsl", PATTERN);
-        write("shaders/show.wgsl", SHOW);
-        for (name, text) in shaders {
-            write(&format!("shaders/{name}.wgsl"), text);
-        }
-        write(
-            "scripts/pipelines/test.rhai",
-            &format!(
-                "let p = pipeline(\"Test\");
-                {body}
-                p.target(\"output\", \"rgba8unorm\");
-                p.fullscreen(\"show\").shader(\"shaders/show.wgsl\").reads(\"result\").writes(\"output\");
-                p.show(\"output\");
-                p"
-            ),
-        );
-        let files = Files::with_project(folder.path()).unwrap();
+        let workshop = Workshop::new();
+        workshop.write("shaders/pattern.wgsl", PATTERN);
         let settings = Settings::new().with("lights", "6").with("range", 2.5);
-        let scene = load_scene(&files, "many_lights", &settings, &Progress::default());
         Self {
             renderer: Renderer::new(gpu(portable)),
-            scene: scene.unwrap_or_else(|error| panic!("{error}")),
-            files,
-            folder,
+            scene: workshop.load("many_lights", &settings),
+            desc: workshop.pipeline(body, shaders),
+            workshop,
             frame: 0,
         }
     }
 
     fn pipeline(&self) -> Pipeline {
-        let desc = load_pipeline(&self.files, "test", &Settings::new());
-        let desc = desc.unwrap_or_else(|problems| panic!("{problems}"));
-        let mut pipeline = self
-            .renderer
-            .compiler()
-            .compile(&self.files, &desc)
-            .unwrap_or_else(|problems| panic!("{problems}"));
-        pipeline.keep_all_targets(true);
-        pipeline
+        self.workshop.compile(&self.renderer, &self.desc)
     }
 
     /// Draws the next frame, and gives the first channel of `result` and the counters.
@@ -412,8 +374,8 @@ fn a_derived_pipeline_changes_another() {
         p.fullscreen(\"spoil\").shader(\"shaders/value.wgsl\").writes(\"result\");";
     let value = "@fragment fn fragment_main() -> @location(0) vec4f { return vec4f(3.0); }";
     let bench = Bench::new(base, &[("value", value)]);
-    std::fs::write(
-        bench.folder.path().join("scripts/pipelines/derived.rhai"),
+    bench.workshop.write(
+        "scripts/pipelines/derived.rhai",
         "import \"test\" as base;
         let p = derive(\"Derived\");
         p.remove_pass(\"spoil\");
@@ -421,9 +383,8 @@ fn a_derived_pipeline_changes_another() {
         p.fullscreen(\"add\").shader(\"shaders/value.wgsl\").writes(\"result\").blend(\"add\");
         p.insert_last();
         p",
-    )
-    .unwrap();
-    let desc = load_pipeline(&bench.files, "derived", &Settings::new());
+    );
+    let desc = load_pipeline(&bench.workshop.files, "derived", &Settings::new());
     let desc = desc.unwrap_or_else(|problems| panic!("{problems}"));
     let passes: Vec<&str> = desc.passes.iter().map(|pass| pass.name.as_str()).collect();
     assert_eq!(passes, ["draw", "add", "show"]);

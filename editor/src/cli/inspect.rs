@@ -9,8 +9,9 @@ use lightbench::assets::files::Files;
 use lightbench::assets::images::{save_exr, save_png};
 use lightbench::lab::capture::STEP;
 use lightbench::lab::colormap::ColorMap;
-use lightbench::lab::inspect::FrameInspector;
+use lightbench::lab::inspect::{FrameInspector, Part};
 use lightbench::render::description::Slice;
+use lightbench::render::inspect::Aspect;
 use lightbench::render::problem::suggestion;
 use lightbench::render::{PipelineDesc, TargetImage};
 
@@ -55,9 +56,15 @@ pub struct Arguments {
     /// A mip level of the target
     #[arg(long, value_name = "N", default_value_t = 0)]
     mip: u32,
-    /// A layer of the target
+    /// A layer of the target, a side of a cube, or a slice of a volume
     #[arg(long, value_name = "N", default_value_t = 0)]
     layer: u32,
+    /// One sample of a target that has several; without it, their mean
+    #[arg(long, value_name = "N")]
+    sample: Option<u32>,
+    /// The stencil of a depth target instead of its depth
+    #[arg(long)]
+    stencil: bool,
     /// One channel alone: r, g, b or a
     #[arg(long, value_name = "CHANNEL")]
     channel: Option<char>,
@@ -137,34 +144,51 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     let pass = pass.map(|pass| find_pass(&desc, pass)).transpose()?;
 
     let size = arguments.size.into();
-    let mut inspector =
-        FrameInspector::new(&mut renderer, &mut scene, pipeline, size, arguments.frame);
+    let mut inspector = FrameInspector::new(
+        &mut renderer,
+        &files,
+        &mut scene,
+        pipeline,
+        size,
+        arguments.frame,
+    );
     if let (Some(target), Some(out)) = (&arguments.target, &arguments.out) {
         let pass = match pass {
             Some(pass) => pass,
             None => last_writer(&desc, target)?,
         };
-        let slice = Slice {
-            mip: arguments.mip,
-            layer: arguments.layer,
+        let part = Part {
+            slice: Slice {
+                mip: arguments.mip,
+                layer: arguments.layer,
+            },
+            sample: arguments.sample,
+            aspect: if arguments.stencil {
+                Aspect::Stencil
+            } else {
+                Aspect::Main
+            },
         };
-        let image = inspector.target(pass, target, slice)?;
+        let image = inspector.target(pass, target, part)?;
         let channel = arguments.channel.map(channel).transpose()?;
         save(&image, channel, (low, high), arguments.false_colour, out)?;
         say(out.display().to_string())?;
     }
     if let Some([x, y]) = pixel {
-        print_history(&mut inspector, (x, y))?;
+        print_history(&mut inspector, &desc, (x, y))?;
     }
     if arguments.find_nan {
         match inspector.first_invalid()? {
-            None => say(
-                "every value is a finite number in the first mip level and layer of every target \
-                 with one sample a texel",
-            )?,
+            None => say("every value that a pass writes is a finite number")?,
             Some(found) => say(format!(
-                "the pass `{}` leaves {:?} in `{}` at {},{}; {} texels of it are no numbers",
-                found.pass, found.value, found.target, found.texel.0, found.texel.1, found.texels
+                "the pass `{}` leaves {:?} in `{}`{} at {},{}; {} texels of it are no numbers",
+                found.pass,
+                found.value,
+                found.place.target,
+                part_in_words(found.place.slice, found.place.sample, Aspect::Main),
+                found.place.first.0,
+                found.place.first.1,
+                found.place.texels
             ))?,
         }
     }
@@ -260,29 +284,50 @@ fn save(
     Ok(())
 }
 
-/// One line a pass and target.
-fn print_history(inspector: &mut FrameInspector<'_>, pixel: (u32, u32)) -> anyhow::Result<()> {
-    let history = inspector.history(pixel)?;
-    let values = |texel: &[f32; 4], channels: u32| {
-        let shown = texel.iter().take(channels as usize);
-        let shown: Vec<String> = shown.map(|value| format!("{value:.6}")).collect();
-        shown.join(" ")
-    };
-    let widest = |lengths: &mut dyn Iterator<Item = usize>| lengths.max().unwrap_or(0);
-    let pass_width = widest(&mut history.iter().map(|value| value.pass.len()));
-    let target_width = widest(&mut history.iter().map(|value| value.target.len()));
-    for value in &history {
-        let before = values(&value.before, value.channels);
-        let after = values(&value.after, value.channels);
-        let change = if before == after {
-            format!("{after}  (unchanged)")
-        } else {
-            format!("{before}  ->  {after}")
-        };
+/// One line for each pass and what it wrote.
+fn print_history(
+    inspector: &mut FrameInspector<'_>,
+    desc: &PipelineDesc,
+    pixel: (u32, u32),
+) -> anyhow::Result<()> {
+    let lines: Vec<[String; 3]> = inspector
+        .history(pixel)?
+        .iter()
+        .map(|value| {
+            let after = value.after.in_words(value.channels);
+            let change = match value.before.map(|before| before.in_words(value.channels)) {
+                None => after,
+                Some(before) if before == after => format!("{after}  (unchanged)"),
+                Some(before) => format!("{before}  ->  {after}"),
+            };
+            let part = part_in_words(value.slice, value.sample, value.aspect);
+            let pass = desc.passes[value.pass].name.clone();
+            [pass, format!("{}{part}", value.target), change]
+        })
+        .collect();
+    let width = |column: usize| lines.iter().map(|line| line[column].len()).max();
+    let (pass_width, target_width) = (width(0).unwrap_or(0), width(1).unwrap_or(0));
+    for [pass, target, change] in &lines {
         say(format!(
-            "{:pass_width$}  {:target_width$}  {change}",
-            value.pass, value.target
+            "{pass:pass_width$}  {target:target_width$}  {change}"
         ))?;
     }
     Ok(())
+}
+
+/// What is not the first of its kind, as in ` mip 1 layer 2`.
+fn part_in_words(slice: Slice, sample: Option<u32>, aspect: Aspect) -> String {
+    let mut words = String::new();
+    for (name, number) in [("mip", slice.mip), ("layer", slice.layer)] {
+        if number > 0 {
+            words.push_str(&format!(" {name} {number}"));
+        }
+    }
+    if let Some(sample) = sample {
+        words.push_str(&format!(" sample {sample}"));
+    }
+    if aspect == Aspect::Stencil {
+        words.push_str(" stencil");
+    }
+    words
 }

@@ -4,10 +4,10 @@
 //! it what a person wants; [`run`] puts the editor into a window that owns its device.
 
 pub mod actions;
+pub mod bench;
 pub mod editor;
 pub mod layout;
 mod panels;
-pub mod reload_bench;
 mod screen;
 mod surface;
 pub mod theme;

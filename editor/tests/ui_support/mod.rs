@@ -91,9 +91,11 @@ impl Bench {
         }
     }
 
-    /// The bytes of the viewport's picture.
+    /// The bytes of the viewport's picture, once it shows the present state.
     pub fn picture(&mut self) -> Vec<u8> {
-        self.harness.step();
+        self.until("the picture of the present state", |editor| {
+            editor.workbench.picture_is_current()
+        });
         let workbench = &mut self.harness.state_mut().workbench;
         let picture = workbench.picture().unwrap();
         read_bytes(workbench.gpu(), &picture.texture).unwrap()

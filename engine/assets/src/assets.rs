@@ -1,8 +1,9 @@
 //! The table of everything that a scene draws.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::ops::Deref;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use lightbench_world::{MaterialId, MeshBounds, MeshId};
 use thiserror::Error;
@@ -17,6 +18,29 @@ pub struct Entry<T> {
     /// Never given twice in a run of the program, not even in another
     /// [`Assets`]: equal revisions mean equal values.
     pub revision: u64,
+}
+
+/// A value that several [`Assets`] may hold, with one revision in all of them:
+/// what was uploaded for one of them serves the others.
+pub type Shared<T> = Entry<Arc<T>>;
+
+impl<T> Entry<Arc<T>> {
+    /// A value that nobody holds yet.
+    #[must_use]
+    pub fn shared(value: T) -> Self {
+        Self {
+            value: Arc::new(value),
+            revision: next_revision(),
+        }
+    }
+}
+
+impl<T> Deref for Entry<Arc<T>> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.value
+    }
 }
 
 /// An id that belongs to no item.
@@ -47,9 +71,9 @@ impl<T> Table<T> {
         }
     }
 
-    fn add(&mut self, name: &str, value: T, revision: u64) -> u32 {
+    fn add(&mut self, name: &str, entry: Entry<T>) -> u32 {
         let index = self.entries.len() as u32;
-        self.entries.push(Entry { value, revision });
+        self.entries.push(entry);
         self.names.push(name.to_owned());
         self.by_name.insert(name.to_owned(), index);
         index
@@ -106,6 +130,13 @@ fn next_revision() -> u64 {
     LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
 
+/// The same for everybody.
+fn placeholder() -> Shared<Texture> {
+    static PLACEHOLDER: OnceLock<Shared<Texture>> = OnceLock::new();
+    let made = PLACEHOLDER.get_or_init(|| Shared::shared(Texture::placeholder()));
+    made.clone()
+}
+
 impl Default for Assets {
     fn default() -> Self {
         Self::new()
@@ -124,11 +155,12 @@ impl Assets {
             revision: 0,
         };
         assets.add_material(Material::default());
-        assets.add_texture(Texture::placeholder());
+        assets.add_shared_texture(placeholder());
         assets
     }
 
-    /// The revision of the latest change to any item.
+    /// A number that changes with every change to any item, and is never that of
+    /// other [`Assets`].
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.revision
@@ -136,29 +168,38 @@ impl Assets {
 
     /// Adds a mesh.
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
+        self.add_shared_mesh(Shared::shared(mesh))
+    }
+
+    /// Adds a mesh that others hold too.
+    pub fn add_shared_mesh(&mut self, mesh: Shared<Mesh>) -> MeshId {
         self.revision = next_revision();
         self.bounds.push(mesh.bounds());
         let name = mesh.name.clone();
-        MeshId(self.meshes.add(&name, Arc::new(mesh), self.revision))
+        MeshId(self.meshes.add(&name, mesh))
     }
 
     /// Adds a material.
     pub fn add_material(&mut self, material: Material) -> MaterialId {
         self.revision = next_revision();
         let name = material.name.clone();
-        MaterialId(self.materials.add(&name, material, self.revision))
+        let entry = Entry {
+            value: material,
+            revision: self.revision,
+        };
+        MaterialId(self.materials.add(&name, entry))
     }
 
     /// Adds a texture.
     pub fn add_texture(&mut self, texture: Texture) -> TextureId {
-        self.add_shared_texture(Arc::new(texture))
+        self.add_shared_texture(Shared::shared(texture))
     }
 
     /// Adds a texture that others hold too.
-    pub fn add_shared_texture(&mut self, texture: Arc<Texture>) -> TextureId {
+    pub fn add_shared_texture(&mut self, texture: Shared<Texture>) -> TextureId {
         self.revision = next_revision();
         let name = texture.name.clone();
-        TextureId(self.textures.add(&name, texture, self.revision))
+        TextureId(self.textures.add(&name, texture))
     }
 
     /// Puts another mesh, and its name, in the place of one.
@@ -288,12 +329,11 @@ mod tests {
         let first = assets.add_mesh(mesh("a"));
         let second = assets.add_mesh(mesh("b"));
         let before: Vec<u64> = assets.meshes().iter().map(|entry| entry.revision).collect();
-        assert_eq!(assets.revision(), before[1]);
+        assert!(assets.revision() > before[1]);
         let half = crate::procedural::cuboid(glam::Vec3::splat(0.5)).named("a");
         assets.replace_mesh(first, half).unwrap();
         assert_eq!(assets.meshes()[1].revision, before[1]);
         assert!(assets.meshes()[0].revision > before[1]);
-        assert_eq!(assets.revision(), assets.meshes()[0].revision);
         assert_eq!(
             assets.mesh_bounds()[0].half_extents,
             glam::Vec3::splat(0.25)
@@ -314,6 +354,23 @@ mod tests {
         other.replace_mesh(id, mesh("y")).unwrap();
         assert_ne!(one.revision(), other.revision());
         assert_ne!(one.meshes()[0].revision, other.meshes()[0].revision);
+    }
+
+    #[test]
+    fn what_is_shared_has_one_revision_in_all_tables() {
+        let (mut one, mut other) = (Assets::new(), Assets::new());
+        let placeholder = TextureId::PLACEHOLDER.0 as usize;
+        assert_eq!(
+            one.textures()[placeholder].revision,
+            other.textures()[placeholder].revision
+        );
+        let shared = Shared::shared(mesh("a"));
+        one.add_shared_mesh(shared.clone());
+        let before = other.revision();
+        other.add_shared_mesh(shared);
+        assert_eq!(one.meshes()[0].revision, other.meshes()[0].revision);
+        assert_ne!(other.revision(), before);
+        assert_ne!(other.revision(), one.revision());
     }
 
     #[test]

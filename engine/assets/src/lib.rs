@@ -11,17 +11,20 @@
 //! - [`watch`] tells when files change, and [`Task`] works on a thread of its own.
 //! - [`procedural`] and [`procedural_texture`] make geometry and pictures from
 //!   parameters.
+//! - [`cache`] keeps what was made, so that a scene that is loaded again makes
+//!   only what changed.
 //!
 //! A model is read on a thread of its own, while a window shows how far it is:
 //!
 //! ```
-//! use lightbench_assets::{Assets, Task, files::Files, obj};
+//! use lightbench_assets::{Assets, Task, cache::Reuse, files::Files, obj};
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # std::fs::write(folder.path().join("chair.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
 //! let files = Files::with_project(folder.path())?;
 //! let task = Task::start(move |progress| {
-//!     obj::load(&files, "chair.obj", &obj::Options::default(), progress)
+//!     let reuse = Reuse::default();
+//!     obj::load(&files, &reuse, "chair.obj", &obj::Options::default(), progress)
 //! })?;
 //! println!("{}, {:.0} %", task.progress().label(), 100.0 * task.progress().fraction());
 //!
@@ -42,7 +45,9 @@
 //! at the top left of the picture and v runs down, as the GPU samples them.
 
 mod assets;
+pub mod cache;
 pub mod color;
+mod digest;
 pub mod files;
 #[cfg(test)]
 mod fuzz;
@@ -51,17 +56,20 @@ pub mod images;
 mod material;
 mod mesh;
 mod mips;
+mod model_meshes;
 pub mod obj;
 pub mod procedural;
 pub mod procedural_texture;
 mod progress;
 pub mod reflection;
 mod rows;
+mod smooth_groups;
 mod tangents;
 mod texture;
 pub mod watch;
 
-pub use assets::{Assets, Entry, UnknownAsset};
+pub use assets::{Assets, Entry, Shared, UnknownAsset};
+pub use digest::Digest;
 pub use lightbench_world::{MaterialId, MeshBounds, MeshId};
 pub use material::Material;
 pub use mesh::{Mesh, MeshError};

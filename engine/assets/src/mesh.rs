@@ -4,6 +4,9 @@ use glam::{Affine3A, Mat3, Vec2, Vec3, Vec4};
 use lightbench_world::MeshBounds;
 use thiserror::Error;
 
+use crate::Digest;
+use crate::digest::Hasher;
+
 /// A list of triangles over shared vertices.
 ///
 /// The attribute arrays have equal lengths; every three entries of `indices`
@@ -93,6 +96,43 @@ impl Mesh {
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.indices.len() / 3
+    }
+
+    /// Bytes of all arrays together.
+    #[must_use]
+    pub fn byte_count(&self) -> usize {
+        let vertex = size_of::<Vec3>() * 2 + size_of::<Vec2>() + size_of::<Vec4>();
+        self.positions.len() * vertex + size_of_val(self.indices.as_slice())
+    }
+
+    /// A digest of the name and of every bit of the arrays.
+    pub(crate) fn digest(&self) -> Digest {
+        let mut hasher = Hasher::default();
+        let mut numbers = |numbers: &[f32]| {
+            let mut bytes = [0; 16];
+            for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {
+                bytes.copy_from_slice(&number.to_le_bytes());
+            }
+            hasher.add(&bytes[..4 * numbers.len()]);
+        };
+        self.positions.iter().for_each(|v| numbers(&v.to_array()));
+        self.normals.iter().for_each(|v| numbers(&v.to_array()));
+        self.uvs.iter().for_each(|v| numbers(&v.to_array()));
+        self.tangents.iter().for_each(|v| numbers(&v.to_array()));
+        self.indices
+            .iter()
+            .for_each(|index| hasher.add(&index.to_le_bytes()));
+        // The lengths, so that what ends one array can't begin the next.
+        for length in [
+            self.positions.len(),
+            self.normals.len(),
+            self.uvs.len(),
+            self.tangents.len(),
+        ] {
+            hasher.add(&length.to_le_bytes());
+        }
+        hasher.add(self.name.as_bytes());
+        hasher.finish()
     }
 
     /// The corners of each triangle, as vertex numbers.

@@ -16,7 +16,7 @@ use crate::files::Files;
 /// How long after a change it is reported, since programs save in several steps
 /// and most are done within a few milliseconds; and how often at most there is
 /// a report.
-const SETTLE: Duration = Duration::from_millis(30);
+const SETTLE: Duration = Duration::from_millis(10);
 
 /// Where pictures and reports are written, which nobody waits for.
 const OUTPUT_FOLDER: &str = "out";

@@ -1,55 +1,53 @@
-//! Looks into a frame: what each target holds after each pass.
-//!
-//! The frame is drawn again and again, each time up to one pass more, and targets are read back. That
-//! is slow and exact; the editor's panels show targets without reading them.
+//! Looks into a frame: what each target holds after each pass, what the passes did to a pixel, and
+//! which of them made values that are no numbers.
 
+use lightbench_assets::files::Files;
 use lightbench_render::description::Slice;
-use lightbench_render::{Pipeline, RenderError, Renderer, TargetImage, View, life};
+use lightbench_render::inspect::{Aspect, Invalid, PixelValue, ProbeRequest, Probed};
+use lightbench_render::{Pipeline, RenderError, Renderer, TargetImage, View};
 use lightbench_script::Scene;
+
+/// Seconds after which a frame counts as hung.
+const TIMEOUT: u64 = 60;
 
 /// A frame that can be looked into.
 pub struct FrameInspector<'a> {
     renderer: &'a mut Renderer,
+    files: &'a Files,
     scene: &'a mut Scene,
     pipeline: &'a mut Pipeline,
     size: (u32, u32),
     frame: u32,
 }
 
-/// The value of a target at a pixel after a pass that wrote the target.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelValue {
-    /// The pass.
-    pub pass: String,
-    /// The target.
-    pub target: String,
-    /// Before the pass, as the target's format decodes; zeros where nothing was.
-    pub before: [f32; 4],
-    /// After it.
-    pub after: [f32; 4],
-    /// Channels that the format has.
-    pub channels: u32,
+/// Which part of a target to read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Part {
+    /// Mip level and layer.
+    pub slice: Slice,
+    /// Which sample; without one the mean of all.
+    pub sample: Option<u32>,
+    /// Colours or depth, or stencil.
+    pub aspect: Aspect,
 }
 
-/// The first value that is no number.
+/// The first values that are no numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Invalid {
-    /// The pass that wrote it.
+pub struct FirstInvalid {
+    /// The pass that left them.
     pub pass: String,
-    /// The target.
-    pub target: String,
-    /// The first texel of it, from the upper left corner.
-    pub texel: (u32, u32),
-    /// The texel.
+    /// Where, and how many.
+    pub place: Invalid,
+    /// The first texel.
     pub value: [f32; 4],
-    /// How many texels of the target hold one.
-    pub texels: usize,
 }
 
 impl<'a> FrameInspector<'a> {
-    /// Looks into a frame of a scene as it stands. `frame` is its number, for shaders.
+    /// Looks into a frame of a scene as it stands. `frame` is its number, for shaders; `files` have
+    /// the shaders that read targets.
     pub fn new(
         renderer: &'a mut Renderer,
+        files: &'a Files,
         scene: &'a mut Scene,
         pipeline: &'a mut Pipeline,
         size: (u32, u32),
@@ -58,6 +56,7 @@ impl<'a> FrameInspector<'a> {
         pipeline.keep_all_targets(true);
         Self {
             renderer,
+            files,
             scene,
             pipeline,
             size,
@@ -65,7 +64,7 @@ impl<'a> FrameInspector<'a> {
         }
     }
 
-    /// One mip level of one layer of a target, as a pass leaves it.
+    /// A part of a target, as a pass leaves it.
     ///
     /// # Errors
     /// Where the frame can't be drawn or the target not be read.
@@ -73,79 +72,98 @@ impl<'a> FrameInspector<'a> {
         &mut self,
         pass: usize,
         target: &str,
-        slice: Slice,
+        part: Part,
     ) -> Result<TargetImage, RenderError> {
-        self.draw(pass)?;
-        self.renderer
-            .read_target_slice(self.pipeline, target, slice)
-    }
-
-    /// What each pass did to a pixel of the output: one entry for each target that it wrote, in the
-    /// order of the passes. In targets of another size it is the texel at the same place. Targets
-    /// that can't be read, since they have several samples, are left out.
-    ///
-    /// # Errors
-    /// Where the frame can't be drawn.
-    pub fn history(&mut self, (x, y): (u32, u32)) -> Result<Vec<PixelValue>, RenderError> {
-        let mut history: Vec<PixelValue> = Vec::new();
-        for pass in 0..self.pipeline.desc.passes.len() {
-            self.draw(pass)?;
-            for target in self.written(pass) {
-                let Ok(image) = self.renderer.read_target(self.pipeline, &target) else {
-                    continue;
-                };
-                let scaled = |at: u32, length: u32, of: u32| {
-                    (u64::from(at) * u64::from(length) / u64::from(of.max(1))) as usize
-                };
-                let column = scaled(x, image.width, self.size.0);
-                let row = scaled(y, image.height, self.size.1);
-                let at = row * image.width as usize + column;
-                let after = image.texels.get(at).copied().unwrap_or_default();
-                let before = history.iter().rev().find(|value| value.target == target);
-                history.push(PixelValue {
-                    pass: self.pipeline.desc.passes[pass].name.clone(),
-                    before: before.map_or([0.0; 4], |value| value.after),
-                    target,
-                    after,
-                    channels: image.channels,
-                });
-            }
-        }
-        Ok(history)
-    }
-
-    /// The first pass that leaves a value in a target that is not a number or infinite. It looks at
-    /// the first mip level and layer, and not at targets with several samples.
-    ///
-    /// # Errors
-    /// Where the frame can't be drawn.
-    pub fn first_invalid(&mut self) -> Result<Option<Invalid>, RenderError> {
-        let invalid = |texel: &[f32; 4]| texel.iter().any(|value| !value.is_finite());
-        for pass in 0..self.pipeline.desc.passes.len() {
-            self.draw(pass)?;
-            for target in self.written(pass) {
-                let Ok(image) = self.renderer.read_target(self.pipeline, &target) else {
-                    continue;
-                };
-                let Some(at) = image.texels.iter().position(invalid) else {
-                    continue;
-                };
-                let width = image.width.max(1);
-                return Ok(Some(Invalid {
-                    pass: self.pipeline.desc.passes[pass].name.clone(),
-                    texel: (at as u32 % width, at as u32 / width),
-                    value: image.texels[at],
-                    texels: image.texels.iter().filter(|texel| invalid(texel)).count(),
-                    target,
-                }));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Draws the frame up to a pass.
-    fn draw(&mut self, pass: usize) -> Result<(), RenderError> {
         self.pipeline.stop_after(Some(pass));
+        self.draw()?;
+        let Part {
+            slice,
+            sample,
+            aspect,
+        } = part;
+        let samples = self
+            .pipeline
+            .desc
+            .target(target)
+            .map_or(1, |desc| desc.samples);
+        let read = |sample| {
+            self.renderer
+                .read_target_any(self.pipeline, self.files, target, slice, sample, aspect)
+        };
+        if let Some(sample) = sample {
+            return read(sample);
+        }
+        let mut mean = read(0)?;
+        for sample in 1..samples {
+            let other = read(sample)?;
+            for (sum, texel) in mean.texels.iter_mut().zip(&other.texels) {
+                (0..4).for_each(|channel| sum[channel] += texel[channel]);
+            }
+        }
+        let share = 1.0 / samples as f32;
+        if samples > 1 {
+            let values = mean.texels.iter_mut().flatten();
+            values.for_each(|value| *value *= share);
+        }
+        Ok(mean)
+    }
+
+    /// What each pass did to a pixel of the output: one entry for each slice and sample of each target
+    /// that it wrote, in the order of the passes.
+    ///
+    /// # Errors
+    /// Where the frame can't be drawn.
+    pub fn history(&mut self, pixel: (u32, u32)) -> Result<Vec<PixelValue>, RenderError> {
+        let request = ProbeRequest {
+            pixel: Some(pixel),
+            search: false,
+        };
+        Ok(self.probe(request)?.values)
+    }
+
+    /// The first pass that leaves a value in a target that is not a number or infinite.
+    ///
+    /// # Errors
+    /// Where the frame can't be drawn.
+    pub fn first_invalid(&mut self) -> Result<Option<FirstInvalid>, RenderError> {
+        let request = ProbeRequest {
+            pixel: None,
+            search: true,
+        };
+        let Some(place) = self.probe(request)?.invalid.into_iter().next() else {
+            return Ok(None);
+        };
+        let part = Part {
+            slice: place.slice,
+            sample: place.sample.or(Some(0)),
+            aspect: Aspect::Main,
+        };
+        let image = self.target(place.pass, &place.target, part)?;
+        let at = place.first.1 * image.width + place.first.0;
+        Ok(Some(FirstInvalid {
+            pass: self.pipeline.desc.passes[place.pass].name.clone(),
+            value: image.texels.get(at as usize).copied().unwrap_or_default(),
+            place,
+        }))
+    }
+
+    /// Reads between the passes of one whole frame.
+    fn probe(&mut self, request: ProbeRequest) -> Result<Probed, RenderError> {
+        self.pipeline.stop_after(None);
+        // Buffers grow first, where they must.
+        self.draw()?;
+        self.renderer.finish(TIMEOUT)?;
+        self.renderer.inspector().probe(self.files, request);
+        self.draw_once()?;
+        self.renderer.finish(TIMEOUT)?;
+        if let Some(problem) = self.renderer.inspector().take_problem() {
+            return Err(RenderError::Shader(problem));
+        }
+        Ok(self.renderer.inspector().take_probed().unwrap_or_default())
+    }
+
+    /// Draws the frame, again where a buffer was too small.
+    fn draw(&mut self) -> Result<(), RenderError> {
         self.renderer.set_frame_index(self.frame);
         let view = View::from_world(&self.scene.world).unwrap_or_default();
         let (world, assets) = (&mut self.scene.world, &self.scene.assets);
@@ -155,16 +173,14 @@ impl<'a> FrameInspector<'a> {
         Ok(())
     }
 
-    /// The targets that a pass writes, each once.
-    fn written(&self, pass: usize) -> Vec<String> {
-        let desc = &self.pipeline.desc;
-        let mut names: Vec<String> = Vec::new();
-        for name in life::writes(&desc.passes[pass]) {
-            if desc.target(name).is_some() && !names.iter().any(|known| known == name) {
-                names.push(name.to_owned());
-            }
-        }
-        names
+    fn draw_once(&mut self) -> Result<(), RenderError> {
+        self.renderer.set_frame_index(self.frame);
+        let view = View::from_world(&self.scene.world).unwrap_or_default();
+        let (world, assets) = (&mut self.scene.world, &self.scene.assets);
+        let time = f64::from(self.frame) * crate::capture::STEP;
+        self.renderer
+            .render(world, assets, self.pipeline, &view, self.size, time)?;
+        Ok(())
     }
 }
 

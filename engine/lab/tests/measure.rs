@@ -62,7 +62,10 @@ fn replaced_reflection_models_are_counted_in_the_notes() {
     let told = "1 material is drawn with another reflection model: 1 of `ggx` as `ward`";
     assert_eq!(notes, [&[][..], &[told.to_owned()]]);
     // Once, although pipelines took turns.
-    assert_eq!(renderer.take_warnings(), [format!("deferred_lighting: {told}")]);
+    assert_eq!(
+        renderer.take_warnings(),
+        [format!("deferred_lighting: {told}")]
+    );
 }
 
 const NAMES: [&str; 2] = ["forward_single_pass", "deferred_shading"];
@@ -208,4 +211,44 @@ fn a_script_that_fails_later_is_an_error_with_its_line() {
         }
         other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn lights_without_a_place_in_an_array_are_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = folder.path().join("scripts/scenes");
+    std::fs::create_dir_all(&scenes).unwrap();
+    // Twelve lights at one place: eight arrays take one each.
+    let scene = "for i in 0..12 { point_light(\"lamp\").at(0, 0, 0).range(2); }
+        camera(\"main\").at(0, 0, 4).look_at(0, 0, 0);";
+    std::fs::write(scenes.join("moving.rhai"), scene).unwrap();
+    let files = Files::with_project(folder.path()).unwrap();
+    let (mut renderer, mut scene, _) = stage(&[], &files);
+    let settings = Settings::new().with("packing", "arrays");
+    let desc = load_pipeline(&files, "light_indexed_forward", &settings).unwrap();
+    let mut pipelines = [renderer.compiler().compile(&files, &desc).unwrap()];
+    let options = MeasureOptions {
+        size: (48, 27),
+        warmup: 0,
+        frames: 2,
+    };
+    let progress = Progress::new();
+    let measured = measure(
+        &mut renderer,
+        &mut scene,
+        &mut pipelines,
+        options,
+        &progress,
+    )
+    .unwrap();
+    let counters = &measured.pipelines[0].counters;
+    let of = |name: &str| {
+        let found = counters.iter().find(|counter| counter.name == name);
+        found
+            .unwrap_or_else(|| panic!("{counters:?}"))
+            .values
+            .clone()
+    };
+    assert_eq!(of("unplaced_lights of opaque_light_indices"), [4.0; 2]);
+    assert_eq!(of("numbered_lights"), [12.0; 2]);
 }

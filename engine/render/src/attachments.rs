@@ -13,7 +13,7 @@ pub struct Attachments {
     /// Every slice of every target that a `clear` pass fills: the index of its declaration, the
     /// view, and for 3D targets which slice of the view.
     pub slices: Vec<(usize, wgpu::TextureView, Option<u32>)>,
-    /// The layers of the depth target that a `clear` pass fills.
+    /// The layers of the depth target that a `clear` pass fills and a `shadow` pass draws to.
     pub layers: Vec<wgpu::TextureView>,
     /// For 3D targets, which slice of the view each colour target is.
     pub depth_slices: Vec<Option<u32>>,
@@ -61,7 +61,7 @@ impl Attachments {
             .and_then(|depth| Some((depth, targets.get(&depth.target)?)))
         {
             this.depth = Some(target.attachment(depth.slice));
-            let layered = pass.kind == PassKind::Clear;
+            let layered = matches!(pass.kind, PassKind::Clear | PassKind::Shadow(_));
             let layers = if layered { target.shape.layers() } else { 0 };
             this.layers = (0..layers)
                 .map(|layer| target.attachment(Slice { mip: 0, layer }))

@@ -7,7 +7,7 @@ use wgpu::TextureFormat;
 pub struct Format(pub TextureFormat);
 
 /// Every format that a target may have.
-const FORMATS: [TextureFormat; 40] = [
+const FORMATS: [TextureFormat; 47] = [
     TextureFormat::R8Unorm,
     TextureFormat::R8Snorm,
     TextureFormat::R8Uint,
@@ -22,15 +22,22 @@ const FORMATS: [TextureFormat; 40] = [
     TextureFormat::Rgba8Uint,
     TextureFormat::Rgba8Sint,
     TextureFormat::Bgra8Unorm,
+    TextureFormat::Bgra8UnormSrgb,
     TextureFormat::Rgb10a2Unorm,
     TextureFormat::Rgb10a2Uint,
     TextureFormat::Rg11b10Ufloat,
+    TextureFormat::R16Unorm,
+    TextureFormat::R16Snorm,
     TextureFormat::R16Uint,
     TextureFormat::R16Sint,
     TextureFormat::R16Float,
+    TextureFormat::Rg16Unorm,
+    TextureFormat::Rg16Snorm,
     TextureFormat::Rg16Uint,
     TextureFormat::Rg16Sint,
     TextureFormat::Rg16Float,
+    TextureFormat::Rgba16Unorm,
+    TextureFormat::Rgba16Snorm,
     TextureFormat::Rgba16Uint,
     TextureFormat::Rgba16Sint,
     TextureFormat::Rgba16Float,
@@ -90,6 +97,15 @@ impl Format {
     /// Whether it holds depth.
     pub fn is_depth(self) -> bool {
         self.0.has_depth_aspect()
+    }
+
+    /// Bytes of one texel without its stencil.
+    pub fn depth_bytes(self) -> u32 {
+        match self.0 {
+            TextureFormat::Depth24PlusStencil8 => 3,
+            TextureFormat::Depth32FloatStencil8 => 4,
+            _ => self.bytes_per_texel(),
+        }
     }
 
     /// Bytes of one texel in memory. Depth with stencil counts 8, as drivers store it.

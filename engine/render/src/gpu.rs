@@ -93,7 +93,7 @@ pub struct Gpu {
 }
 
 /// Optional features, and what is lost without each.
-const WANTED: [(Features, &str); 7] = [
+const WANTED: [(Features, &str); 9] = [
     (
         Features::TIMESTAMP_QUERY,
         "timestamp queries: no GPU time per pass",
@@ -112,8 +112,16 @@ const WANTED: [(Features, &str); 7] = [
     ),
     (Features::FLOAT32_FILTERABLE, "filtering of 32-bit floats"),
     (
+        Features::DEPTH_CLIP_CONTROL,
+        "clamping of depth: lights are not confined to clip volumes that the far plane cuts",
+    ),
+    (
         Features::RG11B10UFLOAT_RENDERABLE,
         "rendering to rg11b10ufloat",
+    ),
+    (
+        Features::TEXTURE_FORMAT_16BIT_NORM,
+        "normalised 16-bit formats such as rg16unorm",
     ),
     (
         Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES,
@@ -313,6 +321,31 @@ impl Gpu {
             .error
             .take()
             .map_or(Ok(()), |error| Err(GpuError::Driver(error)))
+    }
+
+    /// Whether the device can clamp depth instead of cutting faces off at the near and far plane.
+    pub fn clamps_depth(&self) -> bool {
+        self.device
+            .features()
+            .contains(Features::DEPTH_CLIP_CONTROL)
+    }
+
+    /// What the device can do with a format: with its adapter's word where the device was opened
+    /// with it, else what WebGPU guarantees. `None` where the format needs a feature that is not there.
+    pub fn format_features(
+        &self,
+        format: wgpu::TextureFormat,
+    ) -> Option<wgpu::TextureFormatFeatures> {
+        let features = self.device.features();
+        if !features.contains(format.required_features()) {
+            return None;
+        }
+        let specific = Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+        Some(if features.contains(specific) {
+            self.adapter.get_texture_format_features(format)
+        } else {
+            format.guaranteed_format_features(features)
+        })
     }
 
     /// Whether passes can be timed on the device.

@@ -51,8 +51,12 @@ pub struct InstanceData {
     pub world_rows: [[f32; 4]; 3],
     /// Index in the material buffer.
     pub material: u32,
+    /// Where the indices of its mesh begin among those of all meshes.
+    pub first_index: u32,
+    /// What is added to each of these indices.
+    pub base_vertex: u32,
     /// Fills the structure to 16 bytes.
-    pub reserved: [u32; 3],
+    pub reserved: u32,
 }
 
 /// One object that a frame draws; `DrawnObject` in WGSL.
@@ -65,8 +69,8 @@ pub struct DrawnObject {
     pub first_light: u32,
     /// Length of that list.
     pub light_count: u32,
-    /// Fills the structure to 16 bytes.
-    pub reserved: u32,
+    /// Which of its pass's layers it is in.
+    pub layer: u32,
 }
 
 /// One material; `Material` in WGSL.
@@ -127,6 +131,22 @@ pub struct LightVolumeData {
     pub reserved: [u32; 3],
 }
 
+/// A view of a `shadow` pass; `ShadowView` in WGSL.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ShadowViewData {
+    /// World to clip.
+    pub view_projection: Mat4,
+    /// Index of the light whose view it is; the largest number for none.
+    pub light: u32,
+    /// Layer of the depth target.
+    pub layer: u32,
+    /// Near plane, metres.
+    pub near: f32,
+    /// Far plane, metres.
+    pub far: f32,
+}
+
 /// "This material has no such texture."
 pub const NO_TEXTURE: u32 = u32::MAX;
 
@@ -163,9 +183,9 @@ mod tests {
     use std::mem::{offset_of, size_of};
 
     /// Size and member offsets of a WGSL structure, by naga.
-    fn layout(name: &str) -> (u32, Vec<(String, u32)>) {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/lib/scene.wgsl");
-        let text = std::fs::read_to_string(path).unwrap();
+    fn layout(file: &str, name: &str) -> (u32, Vec<(String, u32)>) {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/lib/");
+        let text = std::fs::read_to_string(format!("{folder}{file}")).unwrap();
         let text = text
             .lines()
             .filter(|line| !line.starts_with('#'))
@@ -190,7 +210,11 @@ mod tests {
     }
 
     fn check<T>(name: &str, offsets: &[(&str, usize)]) {
-        let (span, members) = layout(name);
+        check_in::<T>("scene.wgsl", name, offsets);
+    }
+
+    fn check_in<T>(file: &str, name: &str, offsets: &[(&str, usize)]) {
+        let (span, members) = layout(file, name);
         assert_eq!(span as usize, size_of::<T>(), "size of {name}");
         for (member, offset) in offsets {
             let (_, found) = members.iter().find(|(m, _)| m == member).unwrap();
@@ -229,6 +253,8 @@ mod tests {
             &[
                 ("world_row_y", 16),
                 ("material", offset_of!(InstanceData, material)),
+                ("first_index", offset_of!(InstanceData, first_index)),
+                ("base_vertex", offset_of!(InstanceData, base_vertex)),
             ],
         );
         check::<DrawnObject>(
@@ -236,6 +262,7 @@ mod tests {
             &[
                 ("first_light", offset_of!(DrawnObject, first_light)),
                 ("light_count", offset_of!(DrawnObject, light_count)),
+                ("layer", offset_of!(DrawnObject, layer)),
             ],
         );
         check::<MaterialData>(
@@ -268,6 +295,16 @@ mod tests {
         check::<LightVolumeData>(
             "LightVolume",
             &[("row_z", 32), ("light", offset_of!(LightVolumeData, light))],
+        );
+        check_in::<ShadowViewData>(
+            "shadow.wgsl",
+            "ShadowView",
+            &[
+                ("light", offset_of!(ShadowViewData, light)),
+                ("layer", offset_of!(ShadowViewData, layer)),
+                ("near", offset_of!(ShadowViewData, near)),
+                ("far", offset_of!(ShadowViewData, far)),
+            ],
         );
     }
 }

@@ -57,13 +57,13 @@ impl SceneLayout {
         );
         entries.push(entry(
             SAMPLER_BINDING,
-            Stages::FRAGMENT,
+            Stages::FRAGMENT | Stages::COMPUTE,
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         ));
         entries.extend((0..TEXTURE_BUCKETS as u32).map(|bucket| {
             entry(
                 FIRST_TEXTURE_BINDING + bucket,
-                Stages::FRAGMENT,
+                Stages::FRAGMENT | Stages::COMPUTE,
                 wgpu::BindingType::Texture {
                     sample_type: wgpu::TextureSampleType::Float { filterable: true },
                     view_dimension: wgpu::TextureViewDimension::D2Array,

@@ -179,6 +179,7 @@ pub fn reads(pass: &PassDesc) -> impl Iterator<Item = &str> {
         .chain(pass.depth.iter().map(|depth| depth.target.as_str()))
 }
 
-fn touches(pass: &PassDesc, name: &str) -> bool {
+/// Whether a pass uses a target or buffer in any way.
+pub fn touches(pass: &PassDesc, name: &str) -> bool {
     writes(pass).chain(reads(pass)).any(|used| used == name)
 }

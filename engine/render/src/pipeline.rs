@@ -1,240 +1,20 @@
 //! A compiled pipeline: what [`crate::compile::Compiler`] builds and [`crate::record`] runs.
 
+use std::collections::BTreeSet;
+
 use lightbench_assets::ReflectionModels;
 
-use crate::attachments::Attachments;
 use crate::binding::{EngineBuffer, Source};
-use crate::compile::DrawPipeline;
-use crate::description::{Amount, Dispatch, Lights, PassDesc, PassKind, PipelineDesc};
-use crate::frame::ListKey;
+use crate::compiled_pass::CompiledPass;
+use crate::description::{Amount, Dispatch, Lights, PassKind, PipelineDesc};
+use crate::engine_buffers::EngineBuffers;
+use crate::frame::{ListKey, ShadowKey};
 use crate::gpu::Gpu;
 use crate::life::Lives;
-use crate::parameters::ParameterBlock;
 use crate::queries::Measured;
 use crate::scene::ReplacedModels;
 use crate::targets::Targets;
-
-/// The GPU pipelines of a pass.
-#[derive(Debug)]
-pub enum PassPipelines {
-    /// The pass needs none: it clears, copies or resolves.
-    None,
-    /// Meshes.
-    Geometry(GeometryPipelines),
-    /// Light volumes.
-    Lights(LightsPipelines),
-    /// One triangle.
-    Fullscreen(wgpu::RenderPipeline),
-    /// A dispatch.
-    Compute {
-        /// The pipeline.
-        pipeline: wgpu::ComputePipeline,
-        /// Its workgroup size.
-        workgroup: [u32; 3],
-    },
-    /// One triangle a mip level.
-    Mips {
-        /// The pipeline.
-        pipeline: wgpu::RenderPipeline,
-        /// Layout of the group that holds the larger level.
-        layout: wgpu::BindGroupLayout,
-        /// For each level but the first: the view to draw to and the group to read from.
-        levels: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
-    },
-}
-
-/// How a `lights` pass draws.
-#[derive(Debug)]
-pub struct LightsPipelines {
-    /// For each array of lights; one where there are no arrays.
-    pub arrays: Vec<LightPipelines>,
-    /// With a stencil technique: what marks the pixels of a volume, and what wipes all marks.
-    pub stencil: Option<(DrawPipeline, DrawPipeline)>,
-}
-
-/// The ways in which a light's volume is drawn.
-#[derive(Debug)]
-pub struct LightPipelines {
-    /// Back faces, lighting what is nearer: works with the camera inside.
-    pub back: DrawPipeline,
-    /// Front faces, lighting what is farther: works where the far plane cuts the volume.
-    pub front: DrawPipeline,
-    /// Every pixel: for lights without a volume, and where neither of the two works.
-    pub screen: DrawPipeline,
-    /// Pixels that are marked in stencil, or with the inverse scheme those that are not.
-    pub marked: Option<DrawPipeline>,
-}
-
-/// How a `geometry` pass draws.
-#[derive(Debug)]
-pub struct GeometryPipelines {
-    /// By [`crate::variant::Variant::index`].
-    pub variants: Vec<DrawPipeline>,
-    /// With stencil masks: what marks the pixels inside a light's volume.
-    pub mask: Option<MaskPipelines>,
-}
-
-/// Marks the pixels whose surface lies inside a volume, in two steps.
-#[derive(Debug)]
-pub struct MaskPipelines {
-    /// Back faces behind the scene mark.
-    pub back: DrawPipeline,
-    /// Front faces behind the scene take the mark away.
-    pub front: DrawPipeline,
-    /// The whole screen: marks all, or with the reference 0 wipes all marks.
-    pub screen: DrawPipeline,
-}
-
-/// Buffers of the engine that passes may bind.
-#[derive(Clone, Copy, Debug)]
-pub struct EngineBuffers<'a> {
-    /// Vertex positions of all meshes.
-    pub mesh_positions: &'a wgpu::Buffer,
-    /// The rest of the vertices.
-    pub mesh_attributes: &'a wgpu::Buffer,
-    /// Indices of all meshes.
-    pub mesh_indices: &'a wgpu::Buffer,
-    /// Differs where one of the buffers is another than before.
-    pub revision: u64,
-}
-
-impl EngineBuffers<'_> {
-    fn get(&self, which: EngineBuffer) -> &wgpu::Buffer {
-        match which {
-            EngineBuffer::MeshPositions => self.mesh_positions,
-            EngineBuffer::MeshAttributes => self.mesh_attributes,
-            EngineBuffer::MeshIndices => self.mesh_indices,
-        }
-    }
-}
-
-/// A pass, ready to draw.
-#[derive(Debug)]
-pub struct CompiledPass {
-    /// Its GPU pipelines.
-    pub pipelines: PassPipelines,
-    /// The same for scenes with reflection models beside the default one, where the pass lights
-    /// surfaces that another pass has drawn. Geometry passes choose by material instead: see
-    /// [`crate::variant::Variant`].
-    pub for_other_models: Option<PassPipelines>,
-    /// What group 1 holds.
-    pub sources: Vec<(u32, Source)>,
-    /// The layout of group 1.
-    pub target_layout: Option<wgpu::BindGroupLayout>,
-    /// Group 1, for the current targets.
-    pub target_group: Option<wgpu::BindGroup>,
-    /// Group 2.
-    pub parameters: Option<ParameterBlock>,
-    /// Views of what it draws to, for the current targets.
-    pub attachments: Attachments,
-    /// Workgroups of a compute pass along x, y and z.
-    pub workgroups: [u32; 3],
-    /// Which of the frame's lists of objects or lights the pass draws.
-    pub list: Option<usize>,
-}
-
-impl CompiledPass {
-    /// A pass without targets bound yet.
-    pub fn new(
-        pipelines: PassPipelines,
-        sources: Vec<(u32, Source)>,
-        target_layout: Option<wgpu::BindGroupLayout>,
-        parameters: Option<ParameterBlock>,
-    ) -> Self {
-        Self {
-            pipelines,
-            for_other_models: None,
-            sources,
-            target_layout,
-            target_group: None,
-            parameters,
-            attachments: Attachments::default(),
-            workgroups: [1; 3],
-            list: None,
-        }
-    }
-
-    /// Its GPU pipelines for a scene. `other_models` is whether it has reflection models beside the
-    /// default one.
-    pub fn pipelines(&self, other_models: bool) -> &PassPipelines {
-        match &self.for_other_models {
-            Some(pipelines) if other_models => pipelines,
-            _ => &self.pipelines,
-        }
-    }
-
-    /// Binds what the pass reads and writes.
-    fn bind(&mut self, gpu: &Gpu, desc: &PassDesc, targets: &Targets, engine: EngineBuffers<'_>) {
-        self.attachments = Attachments::new(desc, targets);
-        self.workgroups = workgroups(desc, &self.pipelines, targets);
-        self.bind_levels(gpu, desc, targets);
-        let Some(layout) = &self.target_layout else {
-            return;
-        };
-        // Views must live until the group is made.
-        let views: Vec<_> = self
-            .sources
-            .iter()
-            .map(|(_, source)| view(source, targets))
-            .collect();
-        let samplers = Samplers::new(gpu);
-        let entries: Vec<_> = self
-            .sources
-            .iter()
-            .zip(&views)
-            .filter_map(|((binding, source), view)| {
-                let resource = match source {
-                    Source::Target { .. } | Source::StorageTexture { .. } => {
-                        wgpu::BindingResource::TextureView(view.as_ref()?)
-                    }
-                    Source::Buffer { buffer, .. } => targets.buffer(buffer)?.as_entire_binding(),
-                    Source::Engine(which) => engine.get(*which).as_entire_binding(),
-                    Source::LinearSampler => wgpu::BindingResource::Sampler(&samplers.linear),
-                    Source::NearestSampler => wgpu::BindingResource::Sampler(&samplers.nearest),
-                    Source::DepthSampler => wgpu::BindingResource::Sampler(&samplers.depth),
-                };
-                Some(wgpu::BindGroupEntry {
-                    binding: *binding,
-                    resource,
-                })
-            })
-            .collect();
-        self.target_group = Some(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("targets"),
-            layout,
-            entries: &entries,
-        }));
-    }
-
-    /// The views and groups of a `mips` pass.
-    fn bind_levels(&mut self, gpu: &Gpu, desc: &PassDesc, targets: &Targets) {
-        let (PassPipelines::Mips { layout, levels, .. }, PassKind::Mips { target, .. }) =
-            (&mut self.pipelines, &desc.kind)
-        else {
-            return;
-        };
-        levels.clear();
-        let Some(target) = targets.get(&target.target) else {
-            return;
-        };
-        for layer in 0..target.shape.layers() {
-            for mip in 1..target.texture.mip_level_count() {
-                let larger =
-                    target.readable(wgpu::TextureViewDimension::D2, Some(mip - 1), Some(layer));
-                let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some("mips"),
-                    layout,
-                    entries: &[wgpu::BindGroupEntry {
-                        binding: 0,
-                        resource: wgpu::BindingResource::TextureView(&larger),
-                    }],
-                });
-                let slice = crate::description::Slice { mip, layer };
-                levels.push((target.attachment(slice), group));
-            }
-        }
-    }
-}
+use crate::variant::Variants;
 
 /// Where a value is in a list, to which it is added if it is not there.
 fn position<T: PartialEq>(list: &mut Vec<T>, value: T) -> usize {
@@ -243,94 +23,6 @@ fn position<T: PartialEq>(list: &mut Vec<T>, value: T) -> usize {
         list.push(value);
         list.len() - 1
     })
-}
-
-fn view(source: &Source, targets: &Targets) -> Option<wgpu::TextureView> {
-    match source {
-        Source::Target {
-            target,
-            texture,
-            mip,
-            layer,
-        } => Some(
-            targets
-                .get(target)?
-                .readable(texture.dimension, *mip, *layer),
-        ),
-        Source::StorageTexture {
-            target,
-            dimension,
-            slice,
-            ..
-        } => {
-            let flat = *dimension == wgpu::TextureViewDimension::D2;
-            let layer = flat.then_some(slice.layer);
-            Some(
-                targets
-                    .get(target)?
-                    .readable(*dimension, Some(slice.mip), layer),
-            )
-        }
-        _ => None,
-    }
-}
-
-struct Samplers {
-    linear: wgpu::Sampler,
-    nearest: wgpu::Sampler,
-    depth: wgpu::Sampler,
-}
-
-impl Samplers {
-    fn new(gpu: &Gpu) -> Self {
-        let sampler = |filter, compare| {
-            gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("targets"),
-                mag_filter: filter,
-                min_filter: filter,
-                compare,
-                ..Default::default()
-            })
-        };
-        Self {
-            linear: sampler(wgpu::FilterMode::Linear, None),
-            nearest: sampler(wgpu::FilterMode::Nearest, None),
-            depth: sampler(
-                wgpu::FilterMode::Linear,
-                Some(wgpu::CompareFunction::GreaterEqual),
-            ),
-        }
-    }
-}
-
-/// Workgroups of a compute pass for the current targets.
-fn workgroups(desc: &PassDesc, pipelines: &PassPipelines, targets: &Targets) -> [u32; 3] {
-    let (PassKind::Compute(dispatch), PassPipelines::Compute { workgroup, .. }) =
-        (&desc.kind, pipelines)
-    else {
-        return [1; 3];
-    };
-    let amount = |amount: &Amount| match amount {
-        Amount::Texels { target, mip } => targets.get(target).map_or([1; 3], |target| {
-            let (width, height) = target.mip_size(*mip);
-            [width, height, target.shape.layers()]
-        }),
-        Amount::Tiles { tile, depth } => {
-            let size = crate::description::TargetSize::Tiles(*tile);
-            let (columns, rows) = size.resolve(targets.size.0, targets.size.1);
-            [columns, rows, *depth]
-        }
-        Amount::Lights => [targets.lights, 1, 1],
-        Amount::Fixed(x, y, z) => [*x, *y, *z],
-    };
-    match dispatch {
-        Dispatch::Groups(groups) => amount(groups),
-        Dispatch::Threads(threads) => {
-            let threads = amount(threads);
-            [0, 1, 2].map(|axis| threads[axis].div_ceil(workgroup[axis].max(1)))
-        }
-        Dispatch::Indirect { .. } => [1; 3],
-    }
 }
 
 /// A pipeline that can draw.
@@ -343,6 +35,10 @@ pub struct Pipeline {
     declared: PipelineDesc,
     /// Where another format took a target's place, in a sentence each.
     pub notes: Vec<String>,
+    /// The variants of meshes that it can draw.
+    variants: Variants,
+    /// Paths of everything that it was made from: scripts, shaders, modules.
+    files: BTreeSet<String>,
     /// In the order of the description.
     pub(crate) passes: Vec<CompiledPass>,
     /// The lists of objects that its geometry passes need, each once.
@@ -353,6 +49,8 @@ pub struct Pipeline {
     pub(crate) models: ReflectionModels,
     /// What was told of materials that are drawn with another model.
     pub(crate) told_models: ReplacedModels,
+    /// The views that its shadow passes draw, each once.
+    pub(crate) shadow_lists: Vec<ShadowKey>,
     lives: Lives,
     targets: Option<Targets>,
     engine_revision: u64,
@@ -376,11 +74,18 @@ impl Pipeline {
         desc: PipelineDesc,
         notes: Vec<String>,
         mut passes: Vec<CompiledPass>,
+        variants: Variants,
+        files: BTreeSet<String>,
     ) -> Self {
         let (mut lists, mut light_lists) = (Vec::new(), Vec::new());
+        let mut shadow_lists = Vec::new();
         for (pass, compiled) in desc.passes.iter().zip(&mut passes) {
             compiled.list = match &pass.kind {
                 PassKind::Lights(lights) => Some(position(&mut light_lists, lights.clone())),
+                PassKind::Shadow(_) => {
+                    let key = ShadowKey::of(&desc, pass);
+                    key.map(|key| position(&mut shadow_lists, key))
+                }
                 _ => ListKey::of(pass).map(|key| position(&mut lists, key)),
             };
         }
@@ -392,9 +97,12 @@ impl Pipeline {
             desc,
             declared,
             notes,
+            variants,
+            files,
             passes,
             lists,
             light_lists,
+            shadow_lists,
             targets: None,
             engine_revision: 0,
             share_textures: true,
@@ -409,6 +117,26 @@ impl Pipeline {
     /// The targets of the last frame.
     pub fn targets(&self) -> Option<&Targets> {
         self.targets.as_ref()
+    }
+
+    /// The variants of meshes that it can draw.
+    pub fn variants(&self) -> Variants {
+        self.variants
+    }
+
+    /// Paths of everything that it was made from: scripts, shaders and the modules that they
+    /// import.
+    pub fn files(&self) -> &BTreeSet<String> {
+        &self.files
+    }
+
+    /// The buffers of the engine that its shaders bind.
+    pub fn engine_buffers(&self) -> impl Iterator<Item = EngineBuffer> + '_ {
+        let sources = self.passes.iter().flat_map(|pass| &pass.sources);
+        sources.filter_map(|(_, source)| match source {
+            Source::Engine(which) => Some(*which),
+            _ => None,
+        })
     }
 
     /// Which passes run: the others' results reach neither the picture nor a counter.
@@ -490,6 +218,21 @@ impl Pipeline {
         self.desc.buffers.iter().any(|b| b.grows_with.is_some())
     }
 
+    /// Notes that a frame begins: its number in [`Measured::frame`] and what shaders see as
+    /// `frame_index`. History lasts while frames follow each other; the same one may be drawn again.
+    pub(crate) fn begin_frame(&mut self, serial: u32, index: u32) {
+        let followed = self
+            .last_frame
+            .is_some_and(|last| last.wrapping_add(1) == index || last == index);
+        if !followed {
+            self.history_frames = 0;
+            self.run_began = serial;
+        } else if self.last_frame != Some(index) {
+            self.history_frames = self.history_frames.saturating_add(1);
+        }
+        self.last_frame = Some(index);
+    }
+
     /// Makes targets, bindings and parameters ready for a frame of that size and that number of
     /// lights.
     pub(crate) fn prepare(
@@ -498,7 +241,6 @@ impl Pipeline {
         engine: EngineBuffers<'_>,
         size: (u32, u32),
         lights: u32,
-        (serial, index): (u32, u32),
     ) -> &Targets {
         let depends_on_lights = self.depends_on_lights();
         let fits = |targets: &Targets| {
@@ -506,19 +248,9 @@ impl Pipeline {
         };
         let fresh = self.targets.take().filter(fits);
         let same_engine = self.engine_revision == engine.revision;
-        // The same frame may be drawn again.
-        let followed = self
-            .last_frame
-            .is_some_and(|last| last.wrapping_add(1) == index || last == index);
-        if fresh.is_none() || !followed {
-            self.history_frames = 0;
-        } else if self.last_frame != Some(index) {
-            self.history_frames = self.history_frames.saturating_add(1);
+        if fresh.is_none() {
+            self.last_frame = None;
         }
-        if !followed {
-            self.run_began = serial;
-        }
-        self.last_frame = Some(index);
         let outgrown = std::mem::take(&mut self.outgrown);
         let rebind = fresh.is_none() || !same_engine || outgrown;
         let mut targets = fresh.unwrap_or_else(|| {

@@ -12,7 +12,7 @@ use crate::format::Format;
 use crate::shader::undecorate;
 
 /// The kind of numbers in a texture or a fragment output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SampleKind {
     /// Floats and normalised integers.
     Float,
@@ -172,6 +172,18 @@ pub struct Reflection {
     pub bindings: Vec<TargetBinding>,
     /// Members of `@group(2) @binding(0) var<uniform> parameters`, and the structure's size.
     pub parameters: Option<(Vec<ParameterMember>, u32)>,
+}
+
+impl Reflection {
+    /// Adds the bindings that another variant of the same shader has beyond these.
+    pub fn add_bindings(&mut self, variant: &Self) {
+        for binding in &variant.bindings {
+            if !self.bindings.iter().any(|b| b.binding == binding.binding) {
+                self.bindings.push(binding.clone());
+            }
+        }
+        self.bindings.sort_by_key(|binding| binding.binding);
+    }
 }
 
 /// The entry points that every pass uses.
@@ -404,6 +416,15 @@ mod tests {
                 ("g_normal", 3, &flat(SampleKind::Uint)),
             ]
         );
+        // What another variant asks for beside them comes in its place.
+        let variant = naga::front::wgsl::parse_str(
+            "@group(1) @binding(2) var<storage, read> mesh_groups: array<u32>;
+             @group(1) @binding(3) var g_normal: texture_2d<u32>;",
+        );
+        let mut both = found.clone();
+        both.add_bindings(&reflect(&variant.unwrap()));
+        let numbers: Vec<u32> = both.bindings.iter().map(|b| b.binding).collect();
+        assert_eq!(numbers, [0, 2, 3]);
         let (members, size) = found.parameters.unwrap();
         assert_eq!(
             (members[1].name.as_str(), members[1].offset, size),

@@ -1,22 +1,29 @@
 //! The renderer: a device, a scene on it, and frames through pipelines.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+use glam::Mat4;
 use lightbench_assets::Assets;
+use lightbench_assets::files::Files;
 use lightbench_world::{SystemTime, World, systems};
 
 use crate::compile::Compiler;
 use crate::description::Slice;
 use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
-use crate::inspect::Inspector;
+use crate::inspect::{Aspect, Inspector, read_any};
 use crate::layout::SceneLayout;
 use crate::pipeline::Pipeline;
+use crate::problem::Problem;
 use crate::queries::{Measured, Queries};
 use crate::readback::{TargetImage, read_bytes, read_image};
-use crate::record::{Recording, measures, record};
-use crate::scene::Scene;
+use crate::record::{Recording, is_cold, measures, record, warm};
+use crate::scene::{Scene, Uploads};
 use crate::statistics::FrameStatistics;
+use crate::targets::Target;
+use crate::variant::Variants;
 use crate::view::View;
 
 /// How often a frame is drawn before a buffer that is still too small is left so.
@@ -32,11 +39,37 @@ pub struct Renderer {
     frame: Frame,
     queries: Queries,
     inspector: Inspector,
+    /// Submissions that the device has not done yet.
+    in_flight: Arc<AtomicUsize>,
     statistics: FrameStatistics,
     /// Counts the frames of this renderer, for the queries.
     serial: u32,
     /// What shaders see as `frame_index`.
     index: u32,
+    views: Views,
+}
+
+/// World to clip of the last two frames.
+#[derive(Default)]
+struct Views {
+    last: Option<(u32, Mat4)>,
+    before: Option<Mat4>,
+}
+
+impl Views {
+    /// That of the frame before the one of this index, which may be drawn again.
+    fn before(&self, index: u32) -> Option<Mat4> {
+        match self.last {
+            Some((last, _)) if last == index => self.before,
+            last => last.map(|(_, matrix)| matrix),
+        }
+    }
+
+    /// Takes note of a frame that is drawn.
+    fn draw(&mut self, index: u32, view_projection: Mat4) {
+        self.before = self.before(index);
+        self.last = Some((index, view_projection));
+    }
 }
 
 /// Why a frame could not be drawn.
@@ -48,6 +81,12 @@ pub enum RenderError {
     /// The scene does not fit the device.
     #[error("{0}")]
     Scene(String),
+    /// The scene has meshes that the pipeline was not compiled for.
+    #[error("the pipeline is not built yet for all meshes of the scene")]
+    NotBuilt(Variants),
+    /// A shader that looks into frames has a mistake.
+    #[error("{0}")]
+    Shader(Problem),
     /// A target was asked for that the pipeline does not have, or before the first frame.
     #[error("the pipeline has no target `{0}` yet")]
     NoTarget(String),
@@ -61,6 +100,17 @@ pub enum RenderError {
         /// Its layers.
         layers: u32,
     },
+    /// A sample was asked for that the target does not have.
+    #[error("`{target}` has {samples} samples a texel, counted from 0")]
+    NoSample {
+        /// The target.
+        target: String,
+        /// Its samples.
+        samples: u32,
+    },
+    /// Stencil was asked for of a target that has none.
+    #[error("`{0}` has no stencil")]
+    NoStencil(String),
     /// The size asked for is beyond the device.
     #[error(
         "{width} × {height} is more than this device draws; its limit is {limit} in each direction"
@@ -89,9 +139,11 @@ impl Renderer {
             layout,
             gpu,
             frame: Frame::default(),
+            in_flight: Arc::default(),
             statistics: FrameStatistics::default(),
             serial: 0,
             index: 0,
+            views: Views::default(),
         }
     }
 
@@ -105,7 +157,13 @@ impl Renderer {
         Compiler::new(&self.gpu, &self.layout)
     }
 
-    /// Tells the renderer that another world and other assets come next.
+    /// Meshes and textures that have travelled to the device since the renderer was made.
+    pub fn uploads(&self) -> Uploads {
+        self.scene.uploads()
+    }
+
+    /// Tells the renderer that another world and other assets come next. Meshes and textures that
+    /// both scenes share, by their revision, stay on the device.
     pub fn reset_scene(&mut self) {
         self.scene.reset();
     }
@@ -132,6 +190,119 @@ impl Renderer {
         size: (u32, u32),
         time: f64,
     ) -> Result<&FrameStatistics, RenderError> {
+        self.prepare(world, assets, pipeline, view, size, time)?;
+        pipeline.begin_frame(self.serial, self.index);
+        self.views.draw(self.index, self.frame.data.view_projection);
+        let started = Instant::now();
+        let group = self.upload(pipeline);
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.queries.begin(
+            self.serial,
+            measures(pipeline, &self.frame, &self.inspector),
+            pipeline.desc.counters.len(),
+        );
+        let recording = Recording {
+            frame: &self.frame,
+            meshes: &self.scene.meshes,
+            scene: &group,
+            view_bytes: self.scene.view_bytes(),
+        };
+        record(
+            pipeline,
+            &recording,
+            &mut encoder,
+            &self.queries,
+            &mut self.inspector,
+            &mut self.statistics.passes,
+        );
+        for (index, counter) in pipeline.desc.counters.iter().enumerate() {
+            let targets = pipeline.targets();
+            if let Some(buffer) = targets.and_then(|targets| targets.buffer(&counter.buffer)) {
+                self.queries
+                    .counter(index, buffer, counter.word, &mut encoder);
+            }
+        }
+        self.queries.resolve(&mut encoder);
+        self.inspector.end_frame(&mut encoder);
+        self.submit(encoder);
+        self.queries.submitted();
+        self.inspector.submitted();
+
+        self.statistics.record_ms += started.elapsed().as_secs_f64() * 1e3;
+        self.statistics.gpu_ms = None;
+        self.statistics.objects = self.frame.visible_objects;
+        self.statistics.lights = self.frame.visible_lights;
+        self.statistics.unconfined_lights = self.frame.unconfined_lights(world);
+        self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
+        self.serial = self.serial.wrapping_add(1);
+        self.index = self.index.wrapping_add(1);
+        Ok(&self.statistics)
+    }
+
+    /// Makes a pipeline ready to draw without a delay: once the device is idle, draws once, clipped
+    /// away, with one of the GPU pipelines that the frame would need and that nobody has drawn with.
+    /// Says whether none is left.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn warm_up(
+        &mut self,
+        world: &mut World,
+        assets: &Assets,
+        pipeline: &mut Pipeline,
+        view: &View,
+        size: (u32, u32),
+        time: f64,
+    ) -> Result<bool, RenderError> {
+        self.prepare(world, assets, pipeline, view, size, time)?;
+        let cold = is_cold(pipeline, &self.frame, &self.scene.meshes);
+        if !cold || self.in_flight() > 0 {
+            return Ok(!cold);
+        }
+        let group = self.upload(pipeline);
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let recording = Recording {
+            frame: &self.frame,
+            meshes: &self.scene.meshes,
+            scene: &group,
+            view_bytes: self.scene.view_bytes(),
+        };
+        warm(pipeline, &recording, &self.queries, &mut encoder);
+        self.submit(encoder);
+        Ok(false)
+    }
+
+    fn submit(&self, encoder: wgpu::CommandEncoder) {
+        self.gpu.queue.submit([encoder.finish()]);
+        self.in_flight.fetch_add(1, Ordering::AcqRel);
+        let in_flight = Arc::clone(&self.in_flight);
+        self.gpu.queue.on_submitted_work_done(move || {
+            in_flight.fetch_sub(1, Ordering::AcqRel);
+        });
+    }
+
+    /// Frames and warming draws that the device has not done yet, as far as [`Renderer::poll`] has
+    /// seen. Many drivers let the next submission wait for them.
+    pub fn in_flight(&self) -> usize {
+        self.in_flight.load(Ordering::Acquire)
+    }
+
+    /// Extracts the frame and makes the pipeline's targets fit it.
+    fn prepare(
+        &mut self,
+        world: &mut World,
+        assets: &Assets,
+        pipeline: &mut Pipeline,
+        view: &View,
+        size: (u32, u32),
+        time: f64,
+    ) -> Result<(), RenderError> {
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         let (width, height) = (size.0.max(1), size.1.max(1));
         if width > limit || height > limit {
@@ -156,8 +327,11 @@ impl Renderer {
             time: time as f32,
             index: self.index,
             models: pipeline.models,
+            previous: self.views.before(self.index),
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
+            shadow_lists: &pipeline.shadow_lists,
+            clamps_depth: self.gpu.clamps_depth(),
         };
         let (extraction, ()) = SystemTime::of("extraction", || {
             let (instances, lights) = (self.scene.instances(), self.scene.lights());
@@ -167,59 +341,30 @@ impl Renderer {
         self.statistics.systems.clear();
         self.statistics.systems.extend([copying, extraction]);
         self.statistics.extract_ms = started.elapsed().as_secs_f64() * 1e3;
+        let missing = self.frame.variants.without(pipeline.variants());
+        if !missing.is_empty() {
+            return Err(RenderError::NotBuilt(missing));
+        }
 
         let started = Instant::now();
         let lights = self.scene.lights().len() as u32;
+        self.scene.upload_views(&self.frame);
         let engine = self.scene.engine_buffers();
-        let numbers = (self.serial, self.index);
-        let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights, numbers);
-        let target_bytes = targets.bytes();
-        self.statistics.saved_bytes = targets.saved_bytes;
-        self.frame.data.history_frames = pipeline.history_frames();
-        let group = self.scene.upload(&self.frame).clone();
-        let mut encoder = self
-            .gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.queries.begin(
-            self.serial,
-            measures(pipeline, &self.inspector),
-            pipeline.desc.counters.len(),
-        );
-        let recording = Recording {
-            frame: &self.frame,
-            meshes: &self.scene.meshes,
-            scene: &group,
-            other_models: self.scene.has_other_models(),
-        };
-        record(
-            pipeline,
-            &recording,
-            &mut encoder,
-            &self.queries,
-            &mut self.inspector,
-            &mut self.statistics.passes,
-        );
-        for (index, counter) in pipeline.desc.counters.iter().enumerate() {
-            let targets = pipeline.targets();
-            if let Some(buffer) = targets.and_then(|targets| targets.buffer(&counter.buffer)) {
-                self.queries
-                    .counter(index, buffer, counter.word, &mut encoder);
-            }
+        let most = self.gpu.device.limits().max_storage_buffer_binding_size;
+        if let Some(problem) = engine.too_large(pipeline.engine_buffers(), most) {
+            return Err(RenderError::Scene(problem));
         }
-        self.queries.resolve(&mut encoder);
-        self.gpu.queue.submit([encoder.finish()]);
-        self.queries.submitted();
-
+        let targets = pipeline.prepare(&self.gpu, engine, (width, height), lights);
+        self.statistics.target_bytes = targets.bytes();
+        self.statistics.saved_bytes = targets.saved_bytes;
         self.statistics.record_ms = started.elapsed().as_secs_f64() * 1e3;
-        self.statistics.gpu_ms = None;
-        self.statistics.objects = self.frame.visible_objects;
-        self.statistics.lights = self.frame.visible_lights;
-        self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
-        self.statistics.target_bytes = target_bytes;
-        self.serial = self.serial.wrapping_add(1);
-        self.index = self.index.wrapping_add(1);
-        Ok(&self.statistics)
+        Ok(())
+    }
+
+    /// Uploads the frame, and gives the scene's bind group.
+    fn upload(&mut self, pipeline: &Pipeline) -> wgpu::BindGroup {
+        self.frame.data.history_frames = pipeline.history_frames();
+        self.scene.upload(&self.frame).clone()
     }
 
     /// Warns once where a pipeline does not carry the reflection models of the scene's materials.
@@ -362,16 +507,53 @@ impl Renderer {
         name: &str,
         slice: Slice,
     ) -> Result<TargetImage, RenderError> {
+        let target = pipeline.targets().and_then(|targets| targets.get(name));
+        let target = target.ok_or_else(|| RenderError::NoTarget(name.to_owned()))?;
+        self.check_slice(target, slice)?;
+        Ok(read_image(&self.gpu, &target.texture, slice)?)
+    }
+
+    /// One sample of a mip level and layer of any target of the last frame, or its stencil: also of
+    /// targets that [`Renderer::read_target`] can't copy. Its shader comes from `files`.
+    ///
+    /// # Errors
+    /// As [`Renderer::read_target_slice`], and where there is no such sample or no stencil.
+    pub fn read_target_any(
+        &self,
+        pipeline: &Pipeline,
+        files: &Files,
+        name: &str,
+        slice: Slice,
+        sample: u32,
+        aspect: Aspect,
+    ) -> Result<TargetImage, RenderError> {
         let texture = self.texture(pipeline, name)?;
-        let layers = texture.depth_or_array_layers();
-        if slice.mip >= texture.mip_level_count() || slice.layer >= layers {
-            return Err(RenderError::NoSlice {
+        let samples = texture.sample_count();
+        if sample >= samples {
+            return Err(RenderError::NoSample {
                 target: name.to_owned(),
-                mips: texture.mip_level_count(),
-                layers,
+                samples,
             });
         }
-        Ok(read_image(&self.gpu, texture, slice)?)
+        if aspect == Aspect::Stencil && !texture.format().has_stencil_aspect() {
+            return Err(RenderError::NoStencil(name.to_owned()));
+        }
+        let target = pipeline.targets().and_then(|targets| targets.get(name));
+        let target = target.ok_or_else(|| RenderError::NoTarget(name.to_owned()))?;
+        self.check_slice(target, slice)?;
+        read_any(&self.gpu, files, target, slice, sample, aspect)
+    }
+
+    fn check_slice(&self, target: &Target, slice: Slice) -> Result<(), RenderError> {
+        let mips = target.texture.mip_level_count();
+        if slice.mip < mips && slice.layer < target.layers_of_mip(slice.mip) {
+            return Ok(());
+        }
+        Err(RenderError::NoSlice {
+            target: target.name.clone(),
+            mips,
+            layers: target.layers_of_mip(0),
+        })
     }
 
     fn texture<'a>(

@@ -1,6 +1,6 @@
 //! From shader files to checked modules: imports, defines, validation, reflection.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use lightbench_assets::files::Files;
@@ -22,10 +22,15 @@ pub struct Shader {
     pub text: String,
     /// The composed module.
     pub module: naga::Module,
+    /// Paths of the modules that it imports, and of those that they import.
+    pub modules: Vec<String>,
+    /// A number for the text, the defines and all those modules: where anything of it differs, so
+    /// does the number.
+    pub fingerprint: u64,
 }
 
 /// The folder of modules that shaders import.
-const MODULES: &str = "shaders/lib";
+pub const MODULES: &str = "shaders/lib";
 
 /// Composes shaders from files and remembers the modules that they import.
 pub struct ShaderComposer {
@@ -34,14 +39,16 @@ pub struct ShaderComposer {
     module_files: HashMap<String, String>,
     /// File path to the module's text as it was written; the composer rewrites names in it.
     module_texts: BTreeMap<String, String>,
+    /// Paths of the modules that the composer has taken in: those that some shader asked for.
+    added: BTreeSet<String>,
 }
 
 impl ShaderComposer {
-    /// Reads every module in `shaders/lib`. `capabilities` say which optional parts of WGSL are
-    /// allowed.
+    /// Reads every module in `shaders/lib`, and checks none: a mistake in a module concerns those
+    /// shaders alone that import it. `capabilities` say which optional parts of WGSL are allowed.
     ///
     /// # Errors
-    /// The first mistake in a module, with its place.
+    /// A folder or file that can't be read.
     pub fn new(files: &Files, capabilities: Capabilities) -> Result<Self, Problem> {
         let mut composer = Composer::default().with_capabilities(capabilities);
         composer.validate = true;
@@ -49,47 +56,53 @@ impl ShaderComposer {
             composer,
             module_files: HashMap::new(),
             module_texts: BTreeMap::new(),
+            added: BTreeSet::new(),
         };
-        this.add_modules(files)?;
-        Ok(this)
-    }
-
-    /// Adds the modules in an order in which each finds what it imports.
-    fn add_modules(&mut self, files: &Files) -> Result<(), Problem> {
-        let mut waiting = Vec::new();
         let listed = files
             .list(MODULES, "wgsl")
             .map_err(|error| Problem::new(Place::file(MODULES), error.to_string()))?;
         for entry in listed {
             let text = read(files, &entry.path)?;
-            let Some(name) = import_path(&text) else {
-                return Err(Problem::new(
-                    Place::new(entry.path.as_str(), 1, 0),
-                    "the module has no name",
-                )
-                .with_hint("add a line such as `#define_import_path lightbench::name`"));
-            };
-            self.module_files.insert(name.clone(), entry.path.clone());
-            self.module_texts.insert(entry.path.clone(), text.clone());
-            waiting.push((name, entry.path, text));
+            if let Some(name) = import_path(&text) {
+                this.module_files.insert(name, entry.path.clone());
+            }
+            this.module_texts.insert(entry.path, text);
         }
-        while !waiting.is_empty() {
-            let names: Vec<String> = waiting.iter().map(|(name, ..)| name.clone()).collect();
-            let ready = waiting
-                .iter()
-                .position(|(_, _, text)| !names.iter().any(|name| imports(text, name)));
-            let Some(ready) = ready else {
-                let (name, path, _) = &waiting[0];
+        Ok(this)
+    }
+
+    /// Takes in what a text imports, each module after those that it imports itself. `importing`
+    /// are the modules whose imports are being followed, outermost first; `needed` gathers paths.
+    fn add_imports(
+        &mut self,
+        text: &str,
+        importing: &mut Vec<String>,
+        needed: &mut BTreeSet<String>,
+    ) -> Result<(), Problem> {
+        for path in self.imported_files(text) {
+            if let Some(first) = importing.iter().position(|other| *other == path) {
+                let mut round: Vec<&str> = importing[first..].iter().map(String::as_str).collect();
+                round.push(&path);
                 return Err(Problem::new(
                     Place::file(path.as_str()),
                     format!(
-                        "the modules {} import each other in a circle",
-                        names.join(", ")
+                        "the imports go round in a circle: {}",
+                        round.join(" imports ")
                     ),
                 )
-                .with_hint(format!("let `{name}` import nothing that imports it")));
-            };
-            let (_, path, text) = waiting.swap_remove(ready);
+                .with_hint("move what both need into a third module"));
+            }
+            if !needed.insert(path.clone()) && self.added.contains(&path) {
+                continue;
+            }
+            let text = self.module_texts.get(&path).cloned().unwrap_or_default();
+            self.check_imports(&path, &text)?;
+            importing.push(path.clone());
+            self.add_imports(&text, importing, needed)?;
+            importing.pop();
+            if self.added.contains(&path) {
+                continue;
+            }
             let descriptor = ComposableModuleDescriptor {
                 source: &text,
                 file_path: &path,
@@ -98,8 +111,32 @@ impl ShaderComposer {
             if let Err(error) = self.composer.add_composable_module(descriptor) {
                 return Err(self.explain(&error, &path, &text));
             }
+            self.added.insert(path);
         }
         Ok(())
+    }
+
+    /// The files of the modules that a text imports itself, in the order of its imports.
+    fn imported_files(&self, text: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        for name in imported_names(text).map(|(_, name)| name) {
+            let file = self
+                .module_of(name)
+                .and_then(|name| self.module_files.get(name));
+            if let Some(file) = file.filter(|file| !found.contains(*file)) {
+                found.push(file.clone());
+            }
+        }
+        found
+    }
+
+    /// The module of which an import names something, or all: `lightbench::scene::frame` imports
+    /// an item of `lightbench::scene`.
+    fn module_of(&self, name: &str) -> Option<&String> {
+        self.module_files.keys().find(|module| {
+            name.strip_prefix(module.as_str())
+                .is_some_and(|item| item.is_empty() || item.starts_with("::"))
+        })
     }
 
     /// Composes and validates the shader in `path` with `defines` set.
@@ -118,6 +155,9 @@ impl ShaderComposer {
                 .with_hint("an editor may be half-way through saving it; save it again"));
         }
         self.check_imports(path, &text)?;
+        let mut needed = BTreeSet::new();
+        self.add_imports(&text, &mut Vec::new(), &mut needed)?;
+        let fingerprint = self.fingerprint(&text, defines, &needed);
         let shader_defs = defines
             .iter()
             .map(|define| {
@@ -138,63 +178,38 @@ impl ShaderComposer {
                 path: path.to_owned(),
                 text,
                 module,
+                modules: needed.into_iter().collect(),
+                fingerprint,
             }),
             Err(error) => Err(self.explain(&error, path, &text)),
         }
     }
 
-    /// A number for a shader's text with its defines and all modules: where anything of it differs,
-    /// so does the number.
-    pub fn fingerprint(&self, text: &str, defines: &[Define]) -> u64 {
+    fn fingerprint(&self, text: &str, defines: &[Define], modules: &BTreeSet<String>) -> u64 {
         let mut hasher = DefaultHasher::new();
         (text, defines).hash(&mut hasher);
-        self.module_texts.hash(&mut hasher);
+        for path in modules {
+            (path, self.module_texts.get(path)).hash(&mut hasher);
+        }
         hasher.finish()
     }
 
     /// Whether a shader's text, or that of a module which it imports, directly or not, has a word.
-    pub fn mentions(&self, text: &str, word: &str) -> bool {
-        let mut texts = vec![text];
-        let mut modules: Vec<(&String, &String)> = self.module_files.iter().collect();
-        while let Some(text) = texts.pop() {
-            if text.contains(word) {
-                return true;
-            }
-            modules.retain(|(name, file)| {
-                let imported = imports(text, name);
-                texts.extend(
-                    self.module_texts
-                        .get(*file)
-                        .filter(|_| imported)
-                        .map(String::as_str),
-                );
-                !imported
-            });
-        }
-        false
+    pub fn mentions(&self, shader: &Shader, word: &str) -> bool {
+        let modules = shader.modules.iter();
+        let mut texts = modules.filter_map(|path| self.module_texts.get(path));
+        shader.text.contains(word) || texts.any(|text| text.contains(word))
     }
 
     /// The composer looks for a module only where something of it is used; a misspelt import of an
     /// unused one is a mistake all the same.
     fn check_imports(&self, path: &str, text: &str) -> Result<(), Problem> {
-        for (number, line) in text.lines().enumerate() {
-            let Some(rest) = line.trim_start().strip_prefix("#import") else {
-                continue;
-            };
-            let name = rest.trim().split([' ', '{', ';']).next().unwrap_or("");
-            let name = name.trim_end_matches(':').trim_matches('"');
-            // `lightbench::scene::frame` imports an item of `lightbench::scene`.
-            let known = |module: &String| {
-                name.strip_prefix(module.as_str())
-                    .is_some_and(|item| item.is_empty() || item.starts_with("::"))
-            };
-            if !self.module_files.keys().any(known) {
-                let column = line.find(name).unwrap_or(0) as u32 + 1;
-                return Err(self.unknown_module(
-                    name,
-                    Place::new(path, number as u32 + 1, column),
-                    text,
-                ));
+        for (number, name) in imported_names(text) {
+            if self.module_of(name).is_none() {
+                let line = text.lines().nth(number).unwrap_or("");
+                let column = line.find(name).map_or(0, |at| line[..at].chars().count());
+                let at = Place::new(path, number as u32 + 1, column as u32 + 1);
+                return Err(self.unknown_module(name, at, text));
             }
         }
         Ok(())
@@ -203,8 +218,17 @@ impl ShaderComposer {
     fn unknown_module(&self, name: &str, at: Place, text: &str) -> Problem {
         let mut names: Vec<&str> = self.module_files.keys().map(String::as_str).collect();
         names.sort_unstable();
-        let hint = suggestion(name, names.iter().copied())
-            .unwrap_or_else(|| format!("the modules are: {}", names.join(", ")));
+        let last = name.rsplit("::").next().unwrap_or(name);
+        let nameless = self.module_texts.iter().find(|(path, text)| {
+            import_path(text).is_none() && path.ends_with(&format!("/{last}.wgsl"))
+        });
+        let hint = match nameless {
+            Some((path, _)) => {
+                format!("{path} has no name: begin it with `#define_import_path {name}`")
+            }
+            None => suggestion(name, names.iter().copied())
+                .unwrap_or_else(|| format!("the modules are: {}", names.join(", "))),
+        };
         Problem::new(at, format!("there is no module `{name}`"))
             .with_source(text)
             .with_hint(hint)
@@ -380,13 +404,12 @@ fn import_path(text: &str) -> Option<String> {
         .map(|name| name.trim().to_owned())
 }
 
-/// Whether a file imports the module.
-fn imports(text: &str, module: &str) -> bool {
-    text.lines()
-        .filter_map(|line| line.trim().strip_prefix("#import"))
-        .any(|rest| {
-            let name = rest.trim();
-            name.strip_prefix(module)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', ':', '{', ';']))
-        })
+/// The names after `#import`, each with the index of its line.
+fn imported_names(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().filter_map(|(number, line)| {
+        let rest = line.trim_start().strip_prefix("#import")?;
+        let name = rest.trim().split([' ', '{', ';']).next().unwrap_or("");
+        let name = name.trim_end_matches(':').trim_matches('"');
+        Some((number, name))
+    })
 }

@@ -272,11 +272,8 @@ fn usages(gpu: &Gpu, desc: &TargetDesc) -> wgpu::TextureUsages {
     if desc.samples == 1 {
         wanted |= Usage::COPY_DST | Usage::STORAGE_BINDING;
     }
-    let allowed = desc
-        .format
-        .0
-        .guaranteed_format_features(gpu.device.features())
-        .allowed_usages;
+    let features = gpu.format_features(desc.format.0);
+    let allowed = features.map_or(Usage::TEXTURE_BINDING, |features| features.allowed_usages);
     (wanted & allowed) | Usage::TEXTURE_BINDING
 }
 

@@ -49,6 +49,12 @@ impl Variant {
         self.0 & Self::ALPHA_TEST != 0
     }
 
+    /// The same in a view that swaps left and right.
+    #[must_use]
+    pub fn turned(self) -> Self {
+        Self(self.0 ^ Self::MIRRORED)
+    }
+
     /// Front faces wind clockwise.
     pub fn mirrored(self) -> bool {
         self.0 & Self::MIRRORED != 0
@@ -73,5 +79,65 @@ impl Variant {
             (false, true) => &[REFLECTION_MODELS],
             (true, true) => &["ALPHA_TEST", REFLECTION_MODELS],
         }
+    }
+}
+
+/// A set of variants.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Variants(u16);
+
+impl Variants {
+    /// All of them.
+    pub const ALL: Self = Self(u16::MAX);
+
+    /// Whether a variant is in the set.
+    pub fn contains(self, variant: Variant) -> bool {
+        self.0 & (1 << variant.index()) != 0
+    }
+
+    /// Puts a variant into the set.
+    pub fn insert(&mut self, variant: Variant) {
+        self.0 |= 1 << variant.index();
+    }
+
+    /// Those in either of the sets.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those that the other set does not have.
+    #[must_use]
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// Whether one of them draws another reflection model than the default one.
+    pub fn has_other_models(self) -> bool {
+        Variant::all().any(|variant| variant.other_model() && self.contains(variant))
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_hold_what_was_put_into_them() {
+        let cloth = Variant::new(true, true, false, false);
+        let mirror = Variant::new(false, false, true, true);
+        let mut set = Variants::default();
+        assert!(set.is_empty());
+        set.insert(cloth);
+        assert!(set.contains(cloth) && !set.contains(mirror));
+        assert!(!set.has_other_models() && Variants::ALL.has_other_models());
+        assert!(Variant::all().all(|variant| Variants::ALL.contains(variant)));
+        assert!(!Variants::ALL.without(set).contains(cloth));
+        assert_eq!(Variants::ALL.without(set).or(set), Variants::ALL);
     }
 }

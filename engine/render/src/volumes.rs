@@ -41,8 +41,20 @@ pub struct VolumeDraw {
     pub volumes: std::ops::Range<u32>,
     /// Which array of lights it belongs to; 0 without arrays.
     pub array: u32,
-    /// Whether pixels inside are marked in stencil before; then it is one volume.
-    pub stencil: bool,
+    /// How pixels inside are found; where it is not by depth, it is one volume.
+    pub marking: Marking,
+}
+
+/// How the pixels inside a volume are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Marking {
+    /// By one depth test.
+    Depth,
+    /// By counting faces behind the scene in stencil: for closed meshes of any shape (Heidmann 1991,
+    /// "Real Shadows, Real Time", counted from behind as Carmack and Bilodeau do).
+    Count,
+    /// By the pass's stencil scheme.
+    Scheme,
 }
 
 /// The volume of one light.
@@ -60,8 +72,12 @@ pub struct Volume {
 
 /// The kind of ambient lights.
 pub(crate) const AMBIENT: u32 = 3;
-const DIRECTIONAL: u32 = 2;
-const SPOT: u32 = 1;
+/// The kind of directional lights.
+pub(crate) const DIRECTIONAL: u32 = 2;
+/// The kind of spot lights.
+pub(crate) const SPOT: u32 = 1;
+/// The kind of point lights.
+pub(crate) const POINT: u32 = 0;
 
 /// Spots wider than this (full angle) are drawn as spheres: their cone would be huge and flat.
 const WIDEST_CONE: f32 = 120.0 * std::f32::consts::PI / 180.0;
@@ -116,7 +132,7 @@ pub fn is_bounded(light: &LightData) -> bool {
 }
 
 /// The full outer angle of a spot light, from what the shader keeps.
-fn outer_angle(light: &LightData) -> f32 {
+pub(crate) fn outer_angle(light: &LightData) -> f32 {
     (-light.angle_offset / light.angle_scale)
         .clamp(-1.0, 1.0)
         .acos()
@@ -219,16 +235,26 @@ pub fn rectangle(light: &LightData, view: &ViewVolume) -> [f32; 4] {
     if !is_bounded(light) {
         return [0.0, 0.0, 1.0, 1.0];
     }
-    let center = view.view.transform_point3(light.position);
+    sphere_rectangle(light.position, light.range, view)
+}
+
+/// The same for a sphere in the world.
+pub fn sphere_rectangle(center: Vec3, radius: f32, view: &ViewVolume) -> [f32; 4] {
+    let center = view.view.transform_point3(center);
     let share = |at: f32, focal: f32| (at * focal).clamp(-1.0, 1.0) * 0.5 + 0.5;
-    let (left, right) = axis_bounds(center.x, center.z, light.range, view.near);
-    let (low, high) = axis_bounds(center.y, center.z, light.range, view.near);
+    let (left, right) = axis_bounds(center.x, center.z, radius, view.near);
+    let (low, high) = axis_bounds(center.y, center.z, radius, view.near);
     [
         share(left, view.focal_x),
         1.0 - share(high, view.focal_y),
         share(right, view.focal_x),
         1.0 - share(low, view.focal_y),
     ]
+}
+
+/// Whether two rectangles have more than an edge in common.
+pub fn overlap(a: &[f32; 4], b: &[f32; 4]) -> bool {
+    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
 /// The extent of a sphere along one axis of the image plane at distance 1. `x` and `z` are the

@@ -5,6 +5,10 @@ mod support;
 
 use glam::Vec3;
 use lightbench_assets::procedural;
+use lightbench_render::binding::EngineBuffer;
+use lightbench_render::description::{DrawOrder, PassKind};
+use lightbench_render::engine_buffers::EngineBuffers;
+use lightbench_render::scene::MeshBuffers;
 use lightbench_render::{TargetImage, View};
 use lightbench_world::{Light, LightKind, Transform};
 use support::{Bench, deferred, forward, gpu};
@@ -275,4 +279,82 @@ fn moving_one_object_uploads_one_row() {
     bench.world.set(entity, transform).unwrap();
     let row = size_of::<lightbench_render::gpu_data::InstanceData>() as u64;
     assert_eq!(frame(&mut bench), row);
+}
+
+/// The layer of each object, in the order of the objects.
+fn layers(bench: &mut Bench, order: DrawOrder) -> Vec<u32> {
+    let mut desc = forward("rgba16float", true);
+    let PassKind::Geometry(geometry) = &mut desc.passes[0].kind else {
+        panic!("the pass draws objects");
+    };
+    (geometry.layers, geometry.order) = (3, order);
+    bench.draw(&desc, &across(), (64, 36));
+    let drawn = bench.renderer.frame().drawn.iter();
+    let mut layers: Vec<_> = drawn
+        .map(|object| (object.instance, object.layer))
+        .collect();
+    layers.sort_unstable();
+    layers.into_iter().map(|(_, layer)| layer).collect()
+}
+
+#[test]
+fn objects_that_overlap_on_the_screen_are_in_different_layers() {
+    let mut bench = Bench::new();
+    let ball = bench.assets.add_mesh(procedural::uv_sphere(0.5, 8, 4));
+    let grey = bench.material(Vec3::splat(0.5), 0.0, 1.0);
+    // Seen from z = 8: a row of three along the view, then one aside of them, then a fourth in the row.
+    for at in [
+        Vec3::new(0.0, 0.5, 0.0),
+        Vec3::new(0.0, 0.5, 2.0),
+        Vec3::new(0.0, 0.5, 1.0),
+        Vec3::new(4.0, 0.5, 0.0),
+        Vec3::new(0.0, 0.5, -1.0),
+    ] {
+        bench.object(ball, grey, Transform::from_translation(at));
+    }
+    // The nearest chooses first; the fourth in the row must share a layer.
+    let expected = [2, 0, 1, 0, 0];
+    for order in [
+        DrawOrder::State,
+        DrawOrder::BackToFront,
+        DrawOrder::FrontToBack,
+    ] {
+        assert_eq!(layers(&mut bench, order), expected, "{order:?}");
+    }
+}
+
+#[test]
+fn meshes_that_no_shader_can_bind_at_once_are_refused_in_words() {
+    let gpu = gpu(false);
+    let buffer = |size| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage: wgpu::BufferUsages::STORAGE,
+            mapped_at_creation: false,
+        })
+    };
+    let (small, large) = (buffer(4), buffer(3 << 20));
+    let engine = EngineBuffers {
+        meshes: MeshBuffers {
+            positions: &small,
+            attributes: &large,
+            groups: &small,
+            indices: &small,
+        },
+        shadow_views: &small,
+        light_shadows: &small,
+        revision: 1,
+    };
+    use EngineBuffer::{MeshAttributes, MeshIndices, MeshPositions};
+    let refused = |wanted: &[EngineBuffer], most| engine.too_large(wanted.iter().copied(), most);
+    assert_eq!(refused(&[MeshPositions, MeshAttributes], 3 << 20), None);
+    assert_eq!(refused(&[MeshPositions, MeshIndices], 1 << 20), None);
+    assert_eq!(refused(&[], 0), None);
+    let message = refused(&[MeshPositions, MeshAttributes], 2 << 20).unwrap();
+    assert!(
+        message.starts_with("the scene has 3 MiB of normals, texture coordinates and tangents")
+            && message.contains("binds 2 MiB"),
+        "{message}"
+    );
 }

@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use lightbench_assets::files::Files;
-use lightbench_render::description::{PipelineDesc, TargetDesc, TargetSize};
-use lightbench_render::gpu_data::FrameData;
-use lightbench_render::inspect::{Channels, ColorMap, Inspection, Inspector};
+use lightbench_render::description::{PassDesc, PassKind, PipelineDesc, TargetDesc, TargetSize};
+use lightbench_render::frame::Frame;
+use lightbench_render::inspect::{Between, Channels, ColorMap, Inspection, Inspector};
 use lightbench_render::readback::read_bytes;
 use lightbench_render::targets::Targets;
 use lightbench_render::{Format, Gpu, GpuOptions, Place};
@@ -29,15 +29,24 @@ fn look(gpu: &Gpu, format: &str, clear: [f64; 4], change: impl FnOnce(&mut Inspe
     let mut request = Inspection::suited(&desc, 1, "target", 10.0).unwrap();
     change(&mut request);
     let mut inspector = Inspector::new(gpu);
-    inspector.look(&Files::shipped(), Some(request)).unwrap();
-    let frame = FrameData {
-        near: 0.5,
-        far: 50.0,
-        ..FrameData::default()
+    inspector.look(&Files::shipped(), Some(request));
+    let mut frame = Frame::default();
+    (frame.data.near, frame.data.far) = (0.5, 50.0);
+    let pass = PassDesc::new("any", Place::default(), PassKind::Clear);
+    let mut after = |index| {
+        let between = Between {
+            index,
+            pass: &pass,
+            list: None,
+            targets: &targets,
+            frame: &frame,
+        };
+        inspector.after_pass(&between, &mut encoder);
+        inspector.picture().is_some()
     };
-    inspector.after_pass(0, &targets, &frame, &mut encoder);
-    assert!(inspector.picture().is_none(), "that was another pass");
-    inspector.after_pass(1, &targets, &frame, &mut encoder);
+    assert!(!after(0), "that was another pass");
+    assert!(after(1));
+    assert_eq!(inspector.take_problem(), None);
     gpu.queue.submit([encoder.finish()]);
     let bytes = read_bytes(gpu, inspector.picture().unwrap()).unwrap();
     gpu.check().unwrap();

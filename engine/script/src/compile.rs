@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use lightbench_assets::Digest;
+use lightbench_assets::cache::{Kept, Reuse};
 use lightbench_render::Problem;
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
@@ -19,16 +21,51 @@ pub(crate) struct Compiler {
     pub(crate) limits: Limits,
     /// Variables that every script has, as `state`.
     pub(crate) globals: Vec<&'static str>,
+    /// What earlier runs have compiled.
+    pub(crate) reuse: Reuse,
+}
+
+/// A file as it is after compiling.
+#[derive(Clone)]
+struct Compiled {
+    ast: Arc<AST>,
+    source: Source,
+}
+
+impl Kept for Compiled {
+    fn bytes(&self) -> usize {
+        // A node of the tree takes some dozen times the letters that it is written in.
+        32 * self.source.text.len()
+    }
 }
 
 impl Compiler {
-    /// Compiles the text of a file.
+    /// Compiles the text of a file, unless an earlier run has.
     pub(crate) fn compile(
         &self,
         engine: &Engine,
         path: &str,
         text: &str,
-    ) -> Result<AST, Box<EvalAltResult>> {
+    ) -> Result<Arc<AST>, Box<EvalAltResult>> {
+        let made_of = (
+            path,
+            Digest::of(text.as_bytes()),
+            &self.globals,
+            &self.limits,
+        );
+        let compiled = self
+            .reuse
+            .try_get("script", &made_of, || self.compile_anew(engine, path, text))?;
+        self.sources.add(path, compiled.source);
+        Ok(compiled.ast)
+    }
+
+    fn compile_anew(
+        &self,
+        engine: &Engine,
+        path: &str,
+        text: &str,
+    ) -> Result<Compiled, Box<EvalAltResult>> {
         if text.len() > self.limits.file_bytes {
             return Err(Mistake::new(format!(
                 "the file has {} KiB; a script may have {} KiB",
@@ -55,12 +92,15 @@ impl Compiler {
         for name in &source.constants {
             known.push(name.as_str(), ());
         }
-        self.sources.add(path, source);
+        self.sources.add(path, source.clone());
         let mut ast = engine
             .compile_with_scope(&known, text)
             .map_err(|error| EvalAltResult::ErrorParsing(*error.0, error.1))?;
         ast.set_source(path);
-        Ok(ast)
+        Ok(Compiled {
+            ast: Arc::new(ast),
+            source,
+        })
     }
 
     /// Explains an error of a file.

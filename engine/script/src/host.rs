@@ -1,9 +1,10 @@
 //! A Rhai engine made safe: limits, project files, messages, a log.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
+use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::Files;
 use lightbench_render::problem::suggestion;
 use lightbench_render::{Place, Problem};
@@ -36,6 +37,8 @@ pub(crate) struct Extras<'a> {
     pub(crate) register: &'a mut dyn FnMut(&mut Api, &Arc<Watch>, &Log),
     /// Its global variables.
     pub(crate) globals: Vec<(&'static str, Dynamic)>,
+    /// Where compiled files are kept.
+    pub(crate) reuse: Reuse,
 }
 
 impl Host {
@@ -52,8 +55,8 @@ impl Host {
         show_constants(&mut engine);
 
         let mut names = Names::default();
-        for signature in engine.gen_fn_signatures(true) {
-            names.add_builtin(&signature);
+        for signature in builtin_signatures(&engine) {
+            names.add_builtin(signature);
         }
         let mut api = Api::new(&mut engine, &mut names);
         math::register(&mut api);
@@ -75,6 +78,7 @@ impl Host {
             sources: Sources::default(),
             limits: limits.clone(),
             globals,
+            reuse: extras.reuse,
         }
         .shared();
         let resolver = Arc::new(Resolver::new(files.clone()));
@@ -91,7 +95,7 @@ impl Host {
     }
 
     /// Reads and compiles a file.
-    pub(crate) fn load(&self, path: &str) -> Result<AST, Problem> {
+    pub(crate) fn load(&self, path: &str) -> Result<Arc<AST>, Problem> {
         let text = self
             .files
             .read_text(path)
@@ -117,11 +121,6 @@ impl Host {
         engine
             .compile_with_scope(scope, text)
             .map_err(|error| error.to_string())
-    }
-
-    /// The files that were read, with the first.
-    pub(crate) fn files_read(&self) -> Vec<String> {
-        self.compiler.sources.paths()
     }
 }
 
@@ -170,6 +169,13 @@ pub(crate) fn stem_in<'a>(folder: &str, path: &'a str) -> Option<&'a str> {
     let name = path.strip_prefix(folder)?.strip_prefix('/')?;
     let stem = name.strip_suffix(".rhai")?;
     (!stem.contains('/')).then_some(stem)
+}
+
+/// The signatures of Rhai's own functions. To list them takes as long as to make an engine, and they
+/// are the same in all of them.
+fn builtin_signatures(engine: &Engine) -> &'static [String] {
+    static SIGNATURES: OnceLock<Vec<String>> = OnceLock::new();
+    SIGNATURES.get_or_init(|| engine.gen_fn_signatures(true))
 }
 
 /// Sends `print` and `debug` to the log, with their places.

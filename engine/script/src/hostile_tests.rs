@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use lightbench_assets::Progress;
+use lightbench_assets::cache::Cache;
 use lightbench_render::{Problem, Problems};
 
 use crate::testing::project;
@@ -27,7 +28,14 @@ fn run_files(files: &[(&str, &str)]) -> Result<Scene, Problems> {
         std::thread::Builder::new()
             .stack_size(2 << 20)
             .spawn_scoped(scope, || {
-                load_scene_within(&store, &path, &Settings::new(), &Progress::new(), &limits)
+                load_scene_within(
+                    &store,
+                    &path,
+                    &Settings::new(),
+                    &Progress::new(),
+                    &Cache::default(),
+                    &limits,
+                )
             })
             .unwrap()
             .join()
@@ -319,8 +327,15 @@ fn an_endless_update_ends() {
         update_time: Duration::from_millis(100),
         ..Limits::default()
     };
-    let mut scene =
-        load_scene_within(&store, "test", &Settings::new(), &Progress::new(), &limits).unwrap();
+    let mut scene = load_scene_within(
+        &store,
+        "test",
+        &Settings::new(),
+        &Progress::new(),
+        &Cache::default(),
+        &limits,
+    )
+    .unwrap();
     let problem = scene.update(0.0, 0.1).unwrap_err();
     assert_eq!(problem.place.to_string(), "scripts/scenes/test.rhai:1:4");
     assert!(problem.message.contains("a loop that never ends"));

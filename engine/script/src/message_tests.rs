@@ -315,6 +315,7 @@ const CALLS: &[&str] = &[
     "spawn().look_at(1, 2, 3).rotation.angles + spawn().aim(1, 2, 3).rotation.angles",
     "point_light().color(1, 1, 1).intensity(3).range(5).intensity",
     "spot_light().inner(20).outer(40).outer",
+    "point_light().clip_volume(mesh(box(1, 2, 3)), vec3(0, 1, 0)).range",
     "let l = point_light(); l.intensity = 2; l.range = 3; l.range",
     "let l = spot_light(); l.inner = 10; l.outer = 20; l.inner",
     "camera().fov(50).near(1).far(100).fov",

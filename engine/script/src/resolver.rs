@@ -89,7 +89,11 @@ impl Resolver {
         }
         let mistake = Mistake::new(format!("there is no script `{asked}` to import"));
         let known = self.importable(importer);
-        match suggestion(asked, known.iter().map(String::as_str)) {
+        // The right file by a wrong way is commoner than a slip of the finger.
+        let file = |path: &str| path.rsplit('/').next().unwrap_or(path).to_owned();
+        let mut same = known.iter().filter(|path| file(path) == file(asked));
+        let same = same.next().map(|path| format!("did you mean `{path}`?"));
+        match same.or_else(|| suggestion(asked, known.iter().map(String::as_str))) {
             Some(hint) => Err(mistake.with_hint(hint)),
             None => Err(mistake
                 .with_hint("paths start at the folder of the importing file, or at `scripts/`")),

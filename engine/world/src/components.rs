@@ -52,16 +52,6 @@ choice! {
     }
 }
 
-choice! {
-    /// The shape of a volume.
-    VolumeShape {
-        /// A box along the entity's own axes.
-        Box = "box",
-        /// An ellipsoid along the entity's own axes.
-        Ellipsoid = "ellipsoid",
-    }
-}
-
 components! {
     /// Where an entity stands in its parent's space: scaled, then rotated, then
     /// translated.
@@ -249,16 +239,17 @@ components! {
         source_radius: f32 = 0.0, "m", POSITIVE;
     }
 
-    /// Confines a light to a volume that the user draws, so that it does not
-    /// shine through walls.
+    /// Confines a light to the inside of a closed mesh, so that it does not shine
+    /// through walls. Pipelines that draw lights as volumes can do it; the others
+    /// say that they can't.
     #[derive(Copy)]
-    clip_volume: ClipVolume, Hidden {
-        /// The shape.
-        shape: VolumeShape = VolumeShape::Box, "", ANY;
-        /// Centre in the entity's own space.
-        center: Vec3 = Vec3::ZERO, "m", ANY;
-        /// Half the extents in the entity's own space.
-        half_extents: Vec3 = Vec3::ONE, "m", POSITIVE;
+    clip_volume: ClipVolume, Shown {
+        /// The mesh; it may have any shape, but no holes.
+        mesh: MeshId = MeshId(0), "", ANY;
+        /// Position of the mesh in the entity's own space.
+        offset: Vec3 = Vec3::ZERO, "m", ANY;
+        /// Scale of the mesh along the entity's own axes.
+        scale: Vec3 = Vec3::ONE, "", ANY;
     }
 
     /// Draws a line through points.

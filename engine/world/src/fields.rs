@@ -263,7 +263,8 @@ mod tests {
                 "Camera",
                 "Name",
                 "Velocity",
-                "RigidAnimation"
+                "RigidAnimation",
+                "ClipVolume"
             ]
         );
     }

@@ -54,8 +54,8 @@ pub use bundle::Bundle;
 pub use columns::{Arrays, Columns, Component, Marker};
 pub use commands::{Commands, Target};
 pub use components::{
-    Behaviour, Camera, ComponentKind, Light, LightKind, MeshRenderer, Name, RigidAnimation, Row,
-    Transform, Transform2d, Velocity, WorldBounds, WorldMatrix, WorldMatrix2d,
+    Behaviour, Camera, ClipVolume, ComponentKind, Light, LightKind, MeshRenderer, Name,
+    RigidAnimation, Row, Transform, Transform2d, Velocity, WorldBounds, WorldMatrix, WorldMatrix2d,
 };
 pub use curve::Curve;
 pub use entity::Entity;

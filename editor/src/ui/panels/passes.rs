@@ -21,6 +21,7 @@ struct Row {
     gpu_ms: Option<f64>,
     cpu_ms: Option<f64>,
     fragments: Option<u64>,
+    vertices: Option<u64>,
     cost: PassStatistics,
 }
 
@@ -30,7 +31,7 @@ pub struct PassesPanel {
     rows: Vec<Row>,
     /// Name and median of each system.
     systems: Vec<(&'static str, Option<f64>)>,
-    /// What each counter of the pipeline counts, and its value.
+    /// What each counter of the pipeline counts, and its value; then lights without a place.
     counters: Vec<(String, Option<u32>)>,
     target_bytes: u64,
     pipeline: String,
@@ -63,6 +64,15 @@ impl PassesPanel {
                 (counter.description.clone(), value)
             })
             .collect();
+        let passes = pipeline.desc.passes.iter().zip(&statistics.passes);
+        self.counters.extend(passes.filter_map(|(pass, cost)| {
+            Some((pass.unplaced_in_words()?, Some(cost.unplaced_lights)))
+        }));
+        if statistics.unconfined_lights > 0 {
+            let about = "Lights that shine beyond their clip volumes".to_owned();
+            self.counters
+                .push((about, Some(statistics.unconfined_lights)));
+        }
         for (index, pass) in pipeline.desc.passes.iter().enumerate() {
             let times = editor.timings.passes.get(index);
             self.rows.push(Row {
@@ -71,6 +81,7 @@ impl PassesPanel {
                 gpu_ms: times.and_then(|times| times.gpu_ms.median()),
                 cpu_ms: times.and_then(|times| times.cpu_ms.median()),
                 fragments: times.and_then(|times| times.fragments),
+                vertices: times.and_then(|times| times.vertices),
                 cost: statistics.passes.get(index).cloned().unwrap_or_default(),
             });
         }
@@ -120,7 +131,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                 "CPU ms",
                 "Time to record the pass, median of the last frames.",
             ),
-            ("Draws", "Draw calls."),
+            ("Calls", "Draw calls, or dispatches."),
             (
                 "Triangles",
                 "Sent to the rasteriser, before clipping and culling.",
@@ -189,15 +200,17 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
                         ms(row.cpu_ms),
                         about(row.cpu_ms.is_none(), "Not recorded yet."),
                     );
-                    cell(short_count(row.cost.draws.into()), "");
+                    let calls = u64::from(row.cost.draws + row.cost.dispatches);
+                    cell(short_count(calls), &calls_in_words(&row.cost));
                     let triangles = row.cost.triangles;
-                    cell(short_count(triangles), &count(triangles));
+                    cell(short_count(triangles), &triangles_in_words(row));
                     match row.fragments {
                         Some(fragments) => cell(short_count(fragments), &count(fragments)),
                         None => cell(MISSING.to_owned(), &no_count),
                     }
-                    cell(bytes(row.cost.traffic.read), "");
-                    cell(bytes(row.cost.traffic.written), "");
+                    let apart = traffic_in_words(row, &no_count);
+                    cell(bytes(row.cost.traffic.read), &apart);
+                    cell(bytes(row.cost.traffic.written), &apart);
                 });
             });
     });
@@ -205,13 +218,48 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     systems(panel, ui);
 }
 
-/// What the pipeline's shaders counted.
+fn calls_in_words(cost: &PassStatistics) -> String {
+    let workgroups = match cost.workgroups {
+        Some(workgroups) => format!(" of {} workgroups", count(workgroups)),
+        None if cost.dispatches > 0 => ", as large as a buffer says".to_owned(),
+        None => String::new(),
+    };
+    format!(
+        "{} draws of {} instances, {} dispatches{workgroups}",
+        cost.draws, cost.instances, cost.dispatches
+    )
+}
+
+fn triangles_in_words(row: &Row) -> String {
+    let triangles = count(row.cost.triangles);
+    row.vertices.map_or_else(
+        || format!("{triangles} triangles"),
+        |vertices| format!("{triangles} triangles, {} vertices shaded", count(vertices)),
+    )
+}
+
+/// What the byte model keeps apart.
+fn traffic_in_words(row: &Row, no_count: &str) -> String {
+    let traffic = &row.cost.traffic;
+    let overdraw = match row.fragments {
+        Some(fragments) => bytes(traffic.overdraw(fragments)),
+        None => format!("unknown. {no_count}"),
+    };
+    format!(
+        "Stencil {}\nA GPU that works in tiles loads {} and stores {}\nOverdraw {overdraw}",
+        bytes(traffic.stencil),
+        bytes(traffic.loaded),
+        bytes(traffic.stored)
+    )
+}
+
+/// What the pipeline's shaders counted, and what of the scene found no room.
 fn counters(panel: &PassesPanel, ui: &mut Ui) {
     if panel.counters.is_empty() {
         return;
     }
     ui.add_space(4.0);
-    ui.label(RichText::new("Counted by its shaders").small().weak());
+    ui.label(RichText::new("Counted").small().weak());
     let table = egui::Grid::new("counters").num_columns(2);
     table.striped(true).show(ui, |ui| {
         for (description, value) in &panel.counters {

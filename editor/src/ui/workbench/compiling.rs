@@ -1,12 +1,12 @@
 //! Builds pipelines on a thread of its own, so that drawing never waits for a compiler.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use lightbench::assets::files::Files;
-use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems};
+use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems, Variants};
 use lightbench::script::{Settings, load_pipeline};
 
 use super::Wake;
@@ -18,6 +18,8 @@ pub struct Request {
     pub name: String,
     /// Values for its parameters.
     pub settings: Settings,
+    /// The variants of meshes that it must be able to draw.
+    pub variants: Variants,
     /// Grows with every request; the answer carries it.
     pub ticket: u64,
     /// Before all others, because somebody looks at it.
@@ -115,11 +117,18 @@ impl Drop for CompileWorker {
     }
 }
 
+/// A pipeline that was built.
+struct Known {
+    desc: PipelineDesc,
+    variants: Variants,
+    files: BTreeSet<String>,
+}
+
 struct Worker {
     compiler: Compiler,
     files: Files,
     /// What the other side holds, as far as it is still true to the shaders.
-    built: HashMap<String, PipelineDesc>,
+    built: HashMap<String, Known>,
     queue: VecDeque<Request>,
 }
 
@@ -161,7 +170,10 @@ impl Worker {
             Order::Changed(paths) => {
                 for path in &paths {
                     self.compiler.forget(path);
-                    self.built.retain(|_, desc| !uses_shader(desc, path));
+                    // What only scripts say is compared with what they say now.
+                    let shader = path.starts_with("shaders/");
+                    self.built
+                        .retain(|_, known| !shader || !known.files.contains(path));
                 }
             }
         }
@@ -170,7 +182,7 @@ impl Worker {
     fn answer(&mut self, request: Request) -> Answer {
         let started = Instant::now();
         let (loaded, left_out) = load(&self.files, &request.name, &request.settings);
-        let result = loaded.and_then(|desc| self.build(&request.name, desc));
+        let result = loaded.and_then(|desc| self.build(&request, desc));
         Answer {
             name: request.name,
             ticket: request.ticket,
@@ -180,14 +192,22 @@ impl Worker {
         }
     }
 
-    fn build(&mut self, name: &str, desc: PipelineDesc) -> Result<Built, Problems> {
-        if let Some(built) = self.built.get(name)
-            && built.same_structure(&desc)
+    fn build(&mut self, request: &Request, desc: PipelineDesc) -> Result<Built, Problems> {
+        if let Some(known) = self.built.get(&request.name)
+            && known.desc.same_structure(&desc)
+            && request.variants.without(known.variants).is_empty()
         {
             return Ok(Built::Values(Box::new(desc)));
         }
-        let pipeline = self.compiler.compile(&self.files, &desc)?;
-        self.built.insert(name.to_owned(), desc);
+        let pipeline = self
+            .compiler
+            .compile_for(&self.files, &desc, request.variants)?;
+        let known = Known {
+            desc,
+            variants: request.variants,
+            files: pipeline.files().clone(),
+        };
+        self.built.insert(request.name.clone(), known);
         Ok(Built::Pipeline(Box::new(pipeline)))
     }
 }
@@ -223,15 +243,4 @@ fn load(
         kept.set(accepted, value.clone());
     }
     (Err(problems), Vec::new())
-}
-
-/// Whether a pipeline is compiled from that shader. Modules and vertex stages count for all.
-pub fn uses_shader(desc: &PipelineDesc, path: &str) -> bool {
-    path.starts_with("shaders/lib/")
-        || path.starts_with("shaders/vertex/")
-        || desc
-            .passes
-            .iter()
-            .filter_map(|pass| pass.shader.as_ref())
-            .any(|shader| shader.path == path)
 }

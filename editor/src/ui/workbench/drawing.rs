@@ -12,6 +12,14 @@ use super::resolution::Resolution;
 /// How long nothing must move before the picture is drawn at full size.
 const REST: Duration = Duration::from_millis(250);
 
+/// How long a picture stays at most while a newer state of its pipeline is built or of its scene
+/// loaded: the cores of a software driver are better spent on that.
+const HOLD: Duration = Duration::from_millis(250);
+
+/// Frames that the device may have to do at once. The next one would wait for it, and all widgets
+/// with it. A software driver does one at a time.
+const IN_FLIGHT: usize = 3;
+
 /// Frames whose time includes the driver's compiler, and says nothing about the next.
 const WARM_UP: u32 = 2;
 
@@ -30,6 +38,7 @@ pub(super) struct Canvas {
     /// Something other than view and size changed since.
     stale: bool,
     moved_at: Option<Instant>,
+    drawn_at: Option<Instant>,
     /// Submitted frames and their scales.
     scales: VecDeque<(u32, f32)>,
     warm_up: u32,
@@ -90,10 +99,36 @@ impl Workbench {
         let moving = self.canvas.moved_at.is_some_and(|at| now - at < REST);
         let scale = self.resolution.scale(moving);
         let wanted = Drawn { view, size, scale };
-        if self.canvas.stale || before != Some(wanted) {
+        self.warm_up(wanted);
+        let held = self.canvas.drawn_at.is_some_and(|at| now - at < HOLD);
+        let held = held && (self.pipelines.is_renewing() || self.scenes.is_renewing());
+        if (self.canvas.stale || before != Some(wanted)) && !held && self.has_room() {
+            self.canvas.drawn_at = Some(now);
             self.redraw(wanted);
         }
         self.picture()
+    }
+
+    /// Draws at full size whatever else is going on; for benchmarks.
+    pub fn redraw_now(&mut self, size: (u32, u32)) {
+        let view = self.camera.view();
+        let scale = 1.0;
+        self.redraw(Drawn { view, size, scale });
+    }
+
+    /// Whether the device could take another frame without letting it wait.
+    fn has_room(&self) -> bool {
+        let most = if self.gpu().summary.software {
+            1
+        } else {
+            IN_FLIGHT
+        };
+        self.renderer.in_flight() < most
+    }
+
+    /// Whether the picture shows the present state of scene and pipeline.
+    pub fn picture_is_current(&self) -> bool {
+        !self.canvas.stale
     }
 
     /// Whether a scene and a pipeline are there to draw.
@@ -118,11 +153,18 @@ impl Workbench {
     pub fn next_due(&self, now: Instant) -> Option<Duration> {
         const PROGRESS: Duration = Duration::from_millis(80);
         const RESULTS: Duration = Duration::from_millis(20);
+        const DEVICE: Duration = Duration::from_millis(4);
         let ready = self.picture_ready();
+        let soonest = if self.has_room() {
+            Duration::ZERO
+        } else {
+            DEVICE
+        };
         let soon = [
-            (ready && self.clock.playing).then_some(Duration::ZERO),
-            (ready && self.canvas.stale && self.canvas.problem.is_none()).then_some(Duration::ZERO),
+            (ready && self.clock.playing).then_some(soonest),
+            (ready && self.canvas.stale && self.canvas.problem.is_none()).then_some(soonest),
             self.timings.is_waiting().then_some(RESULTS),
+            (self.scenes.shown().is_some() && self.pipelines.is_warming()).then_some(DEVICE),
             (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
                 .then_some(PROGRESS),
             // Refine the picture once nothing moves any more.
@@ -141,6 +183,31 @@ impl Workbench {
     pub fn drawn_size(&self) -> Option<(u32, u32)> {
         let drawn = self.canvas.drawn?;
         Some(Resolution::apply(drawn.size, drawn.scale))
+    }
+
+    /// Goes one step on with a pipeline that is not on screen yet. The picture goes on with the last
+    /// good one meanwhile.
+    fn warm_up(&mut self, wanted: Drawn) {
+        let size = Resolution::apply(wanted.size, wanted.scale);
+        let time = self.clock.time();
+        let (Some(scene), Some(pipeline)) = (self.scenes.scene_mut(), self.pipelines.cold()) else {
+            return;
+        };
+        let (world, assets) = (&mut scene.world, &scene.assets);
+        let result = self
+            .renderer
+            .warm_up(world, assets, pipeline, &wanted.view, size, time);
+        match result {
+            Ok(false) => {}
+            Err(RenderError::NotBuilt(variants)) => self.pipelines.need(variants),
+            Err(RenderError::Gpu(error)) => self.device_failed(error),
+            // What keeps it from drawing is said when it draws.
+            Ok(true) | Err(_) => {
+                self.pipelines.warmed();
+                self.timings.reset();
+                self.canvas.new_pipeline();
+            }
+        }
     }
 
     fn redraw(&mut self, wanted: Drawn) {
@@ -174,8 +241,13 @@ impl Workbench {
                 }
                 self.canvas.drawn = Some(wanted);
                 self.canvas.problem = None;
+                if let Some(problem) = self.renderer.inspector().take_problem() {
+                    self.log.problem(&problem);
+                }
             }
             Err(RenderError::Gpu(error)) => self.device_failed(error),
+            // The last picture stays until that is built.
+            Err(RenderError::NotBuilt(variants)) => self.pipelines.need(variants),
             Err(error) => {
                 let problem = Problem::new(Place::file("viewport"), error.to_string());
                 if self.canvas.problem.as_ref() != Some(&problem) {

@@ -179,10 +179,7 @@ impl Workbench {
 
     /// Chooses a target to look at, or none.
     pub fn inspect(&mut self, request: Option<inspect::Inspection>) {
-        let result = self.renderer.inspector().look(&self.files, request);
-        if let Err(problem) = result {
-            self.log.problem(&problem);
-        }
+        self.renderer.inspector().look(&self.files, request);
         self.canvas.invalidate();
     }
 
@@ -243,9 +240,12 @@ impl Workbench {
         if paths.iter().any(|path| path.starts_with("scripts/")) {
             self.library.refresh(&self.files, &self.wake);
         }
-        if paths.iter().any(|path| path == inspect::INSPECT_SHADER) {
-            let request = self.inspection();
-            self.inspect(request);
+        let looks = |path: &String| {
+            path.starts_with(inspect::INSPECT_SHADERS) || path.starts_with("shaders/lib/")
+        };
+        if paths.iter().any(looks) {
+            self.renderer.inspector().forget_shaders();
+            self.canvas.invalidate();
         }
     }
 
@@ -264,10 +264,6 @@ impl Workbench {
                     let title = self.library.pipeline_title(&name).to_owned();
                     let ms = took.as_secs_f64() * 1e3;
                     self.log.info(format!("{title}: built in {ms:.0} ms."));
-                    if Some(name.as_str()) == self.pipelines.shown() {
-                        self.timings.reset();
-                        self.canvas.new_pipeline();
-                    }
                 }
                 News::Values(_) => self.canvas.invalidate(),
                 News::Failed(_, problems) => self.log_problems(&problems),

@@ -4,19 +4,21 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use lightbench::assets::files::Files;
-use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems};
+use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems, Variants};
 use lightbench::script::{SettingValue, Settings};
 
 use super::Wake;
-use super::compiling::{Answer, Built, CompileWorker, Request, uses_shader};
+use super::compiling::{Answer, Built, CompileWorker, Request};
 
 /// One pipeline that was visited.
 #[derive(Debug, Default)]
 pub struct Slot {
     /// Values that somebody gave to its parameters.
     pub settings: Settings,
-    /// The last good one.
+    /// The last good one that can draw without a delay.
     pub pipeline: Option<Pipeline>,
+    /// A newer one that takes its place once it is warm.
+    next: Option<Pipeline>,
     /// Why the newest state of its files or settings does not work.
     pub problems: Option<Problems>,
     /// The newest request that was not answered yet.
@@ -26,9 +28,13 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// The description with its parameters.
+    /// The newest description with its parameters.
     pub fn desc(&self) -> Option<&PipelineDesc> {
-        self.pipeline.as_ref().map(|pipeline| &pipeline.desc)
+        self.newest().map(|pipeline| &pipeline.desc)
+    }
+
+    fn newest(&self) -> Option<&Pipeline> {
+        self.next.as_ref().or(self.pipeline.as_ref())
     }
 }
 
@@ -52,7 +58,9 @@ pub struct Pipelines {
     shown: Option<String>,
     worker: CompileWorker,
     ticket: u64,
-    builds: u64,
+    /// The variants of meshes that the scene has.
+    variants: Variants,
+    swaps: u64,
 }
 
 impl Pipelines {
@@ -64,7 +72,8 @@ impl Pipelines {
             shown: None,
             worker: CompileWorker::start(compiler, files, wake),
             ticket: 0,
-            builds: 0,
+            variants: Variants::default(),
+            swaps: 0,
         }
     }
 
@@ -74,6 +83,7 @@ impl Pipelines {
         self.shown = None;
         for slot in self.slots.values_mut() {
             slot.pipeline = None;
+            slot.next = None;
             slot.pending = None;
             slot.stale = true;
         }
@@ -115,19 +125,64 @@ impl Pipelines {
             .is_some_and(|slot| slot.pending.is_some())
     }
 
-    /// How many pipelines were compiled since the start.
-    pub fn builds(&self) -> u64 {
-        self.builds
+    /// How many new or changed pipelines went on screen since the start.
+    pub fn swaps(&self) -> u64 {
+        self.swaps
     }
 
-    /// Swaps to another pipeline: at once if it was visited, else as soon as it is built.
+    /// The selected pipeline, if it is built but not warm: see
+    /// [`Renderer::warm_up`](lightbench::render::Renderer::warm_up).
+    pub fn cold(&mut self) -> Option<&mut Pipeline> {
+        self.slots.get_mut(&self.selected)?.next.as_mut()
+    }
+
+    /// Whether the selected pipeline is being warmed up.
+    pub fn is_warming(&self) -> bool {
+        self.slots
+            .get(&self.selected)
+            .is_some_and(|slot| slot.next.is_some())
+    }
+
+    /// Whether the pipeline on screen is about to be replaced by a newer state of itself.
+    pub fn is_renewing(&self) -> bool {
+        self.shown() == Some(self.selected()) && (self.is_busy() || self.is_warming())
+    }
+
+    /// The selected pipeline is warm: it goes on screen.
+    pub fn warmed(&mut self) {
+        let Some(slot) = self.slots.get_mut(&self.selected) else {
+            return;
+        };
+        if let Some(next) = slot.next.take() {
+            slot.pipeline = Some(next);
+            self.shown = Some(self.selected.clone());
+            self.swaps += 1;
+        }
+    }
+
+    /// The scene has meshes of these variants: builds what can't draw them again.
+    pub fn need(&mut self, variants: Variants) {
+        let more = self.variants.or(variants);
+        if more == self.variants {
+            return;
+        }
+        self.variants = more;
+        for slot in self.slots.values_mut() {
+            slot.stale = true;
+        }
+        if !self.selected.is_empty() {
+            self.request(&self.selected.clone(), true);
+        }
+    }
+
+    /// Swaps to another pipeline: at once if it was visited, else as soon as it is built and warm.
     pub fn select(&mut self, name: &str) {
         self.selected = name.to_owned();
         let slot = self.slots.entry(name.to_owned()).or_default();
         if slot.pipeline.is_some() {
             self.shown = Some(name.to_owned());
         }
-        if (slot.pipeline.is_none() || slot.stale) && slot.pending.is_none() {
+        if (slot.newest().is_none() || slot.stale) && slot.pending.is_none() {
             self.request(name, true);
         }
     }
@@ -168,10 +223,8 @@ impl Pipelines {
         let mut affected = Vec::new();
         for (name, slot) in &mut self.slots {
             let script = |path: &String| path.starts_with("scripts/pipelines/");
-            let hit = match (&slot.pipeline, &slot.problems) {
-                (Some(pipeline), None) => paths
-                    .iter()
-                    .any(|path| script(path) || uses_shader(&pipeline.desc, path)),
+            let hit = match (slot.newest(), &slot.problems) {
+                (Some(pipeline), None) => paths.iter().any(|path| pipeline.files().contains(path)),
                 // What is broken may have named any of these.
                 _ => paths
                     .iter()
@@ -209,13 +262,12 @@ impl Pipelines {
         }
         match answer.result {
             Ok(Built::Pipeline(pipeline)) => {
-                slot.pipeline = Some(*pipeline);
+                slot.next = Some(*pipeline);
                 slot.problems = None;
-                self.builds += 1;
                 news.push(News::Compiled(answer.name.clone(), answer.took));
             }
             Ok(Built::Values(desc)) => {
-                if let Some(pipeline) = &mut slot.pipeline {
+                if let Some(pipeline) = slot.next.as_mut().or(slot.pipeline.as_mut()) {
                     pipeline.adopt_values(&desc);
                 }
                 slot.problems = None;
@@ -229,9 +281,6 @@ impl Pipelines {
                 slot.problems = Some(problems);
             }
         }
-        if slot.pipeline.is_some() && answer.name == self.selected {
-            self.shown = Some(answer.name);
-        }
     }
 
     fn request(&mut self, name: &str, urgent: bool) {
@@ -242,6 +291,7 @@ impl Pipelines {
         self.worker.build(Request {
             name: name.to_owned(),
             settings: slot.settings.clone(),
+            variants: self.variants,
             ticket: self.ticket,
             urgent,
         });

@@ -4,13 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lightbench::assets::Task;
+use lightbench::assets::cache::Cache;
 use lightbench::assets::files::Files;
 use lightbench::render::{Place, Problem, Problems};
-use lightbench::script::{Scene, SettingValue, Settings, load_scene};
+use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_within};
 
 use super::Wake;
 
-/// Paths that a load has read.
+/// Paths that a load has read or looked for.
 type Reads = Arc<Mutex<BTreeSet<String>>>;
 
 struct Loading {
@@ -45,6 +46,8 @@ pub enum Loaded {
 pub struct Scenes {
     files: Files,
     wake: Wake,
+    /// What loads have made, for the next ones.
+    cache: Cache,
     scene: Option<Scene>,
     shown: Option<String>,
     selected: String,
@@ -54,6 +57,7 @@ pub struct Scenes {
     wanted: bool,
     problems: Option<Problems>,
     reads: BTreeSet<String>,
+    swaps: u64,
 }
 
 impl Scenes {
@@ -62,6 +66,7 @@ impl Scenes {
         Self {
             files,
             wake,
+            cache: Cache::default(),
             scene: None,
             shown: None,
             selected: String::new(),
@@ -70,6 +75,7 @@ impl Scenes {
             wanted: false,
             problems: None,
             reads: BTreeSet::new(),
+            swaps: 0,
         }
     }
 
@@ -91,6 +97,11 @@ impl Scenes {
     /// Which scene is on screen.
     pub fn shown(&self) -> Option<&str> {
         self.shown.as_deref()
+    }
+
+    /// How often a scene has taken the place of another.
+    pub fn swaps(&self) -> u64 {
+        self.swaps
     }
 
     /// Mistakes of the selected scene.
@@ -158,11 +169,16 @@ impl Scenes {
 
     /// Loads again if one of these files is part of the scene. Returns whether it is.
     pub fn changed(&mut self, paths: &[String]) -> bool {
+        let loading = self.loading.as_ref().map(|loading| &loading.reads);
+        let loading = loading.map(|reads| reads.lock().unwrap_or_else(PoisonError::into_inner));
         let hit = paths.iter().any(|path| {
             self.reads.contains(path)
+                // What a load has read by now may be older than the save.
+                || loading.as_ref().is_some_and(|reads| reads.contains(path))
                 // Whatever is broken may wait for a file that was not there.
                 || self.problems.is_some() && !path.starts_with("shaders/")
         });
+        drop(loading);
         self.wanted |= hit;
         hit
     }
@@ -193,6 +209,11 @@ impl Scenes {
         self.loading.is_some() || self.wanted
     }
 
+    /// Whether a newer state of the scene on screen is being loaded.
+    pub fn is_renewing(&self) -> bool {
+        self.is_busy() && self.shown.as_deref() == Some(&self.selected)
+    }
+
     fn take(&mut self, result: Result<Scene, Problems>) -> Loaded {
         let Some(loading) = self.loading.take() else {
             return Loaded::Scene { again: true };
@@ -205,6 +226,7 @@ impl Scenes {
                 self.scene = Some(scene);
                 self.shown = Some(loading.name.clone());
                 self.problems = None;
+                self.swaps += 1;
                 Loaded::Scene { again }
             }
             Err(problems) => {
@@ -221,14 +243,15 @@ impl Scenes {
         let settings = self.settings.get(&name).cloned().unwrap_or_default();
         let reads = Reads::default();
         let told = Arc::clone(&reads);
-        let files = self.files.observed(move |path, _| {
+        let files = self.files.observed_with_missing(move |path, _| {
             let mut reads = told.lock().unwrap_or_else(PoisonError::into_inner);
             reads.insert(path.to_owned());
         });
         let wake = Arc::clone(&self.wake);
-        let wanted = name.clone();
+        let (wanted, cache) = (name.clone(), self.cache.clone());
         let task = Task::start(move |progress| {
-            let scene = load_scene(&files, &wanted, &settings, progress);
+            let limits = Limits::default();
+            let scene = load_scene_within(&files, &wanted, &settings, progress, &cache, &limits);
             wake();
             scene
         });

@@ -52,6 +52,8 @@ pub struct PassTimes {
     pub cpu_ms: Series,
     /// Fragments in the last frame that counted them.
     pub fragments: Option<u64>,
+    /// Vertices in the same frame.
+    pub vertices: Option<u64>,
 }
 
 /// The history of one system of the world.
@@ -151,6 +153,9 @@ impl Timings {
         }
         for (times, count) in self.passes.iter_mut().zip(&measured.fragments) {
             times.fragments = Some(*count);
+        }
+        for (times, count) in self.passes.iter_mut().zip(&measured.vertices) {
+            times.vertices = Some(*count);
         }
     }
 

@@ -29,7 +29,8 @@ use std::path::{Path, PathBuf};
 pub use atomic::write_atomic;
 pub use error::FileError;
 pub use list::Listed;
-use observer::Observer;
+pub use observer::Access;
+use observer::Observers;
 pub use path::{check, join};
 pub use project::{PROJECT_MARKER, create_project, find_project};
 pub use read::{MAX_FILE_BYTES, read_path};
@@ -58,7 +59,7 @@ pub struct Files {
     shipped: &'static [(&'static str, &'static [u8])],
     /// Canonical folders.
     grants: Vec<PathBuf>,
-    observer: Observer,
+    observers: Observers,
 }
 
 impl Files {
@@ -69,7 +70,7 @@ impl Files {
             project: None,
             shipped: shipped::SHIPPED,
             grants: Vec::new(),
-            observer: Observer::default(),
+            observers: Observers::default(),
         }
     }
 
@@ -93,11 +94,30 @@ impl Files {
     }
 
     /// The same store, whose reads are told to `observe` with the path and the
-    /// bytes, as they are on the disk. A report hashes its inputs so.
+    /// bytes, as they are on the disk, beside those who are told already. A
+    /// report hashes its inputs so.
     #[must_use]
     pub fn observed(&self, observe: impl Fn(&str, &[u8]) + Send + Sync + 'static) -> Self {
         Self {
-            observer: Observer::new(observe),
+            observers: self.observers.and(move |path, access| {
+                if let Access::Read(bytes) = access {
+                    observe(path, bytes);
+                }
+            }),
+            ..self.clone()
+        }
+    }
+
+    /// As [`Files::observed`], and told of files that are asked for and are in
+    /// no layer too: when one of them appears, what was made without it is to
+    /// be made again.
+    #[must_use]
+    pub fn observed_with_missing(
+        &self,
+        observe: impl Fn(&str, Access) + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            observers: self.observers.and(observe),
             ..self.clone()
         }
     }
@@ -154,7 +174,7 @@ impl Files {
                 .map(<[u8]>::to_vec)
                 .ok_or_else(|| FileError::not_found(path, self.project())),
         }?;
-        self.observer.tell(path, &bytes);
+        self.observers.tell(path, Access::Read(&bytes));
         Ok(bytes)
     }
 
@@ -173,6 +193,14 @@ impl Files {
     /// # Errors
     /// A path that is not allowed, or a file that is in no layer.
     pub fn origin(&self, path: &str) -> Result<Origin, FileError> {
+        let origin = self.look_up(path);
+        if let Err(FileError::NotFound { .. }) = &origin {
+            self.observers.tell(path, Access::Missing);
+        }
+        origin
+    }
+
+    fn look_up(&self, path: &str) -> Result<Origin, FileError> {
         if let Some((root, below)) = self.granted(path)? {
             return match inside(root, below, path)? {
                 Some(on_disk) => Ok(Origin::Project(on_disk)),

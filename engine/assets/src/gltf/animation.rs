@@ -11,6 +11,18 @@ use super::Document;
 use super::nodes::Numbered;
 use crate::obj::Problem;
 
+/// The bytes that the curves of an animation hold at most.
+pub(super) fn byte_count(animation: &RigidAnimation) -> usize {
+    let times = [
+        animation.translation.times(),
+        animation.rotation.times(),
+        animation.scale.times(),
+    ];
+    let keys: usize = times.iter().map(|times| times.len()).sum();
+    // A time, and a value with two tangents.
+    keys * (size_of::<f32>() + 3 * size_of::<Quat>())
+}
+
 /// Gives the nodes the curves of all animations of the file. All of an animation's nodes repeat
 /// together, when its longest channel ends.
 pub(super) fn load(document: &mut Document, nodes: &mut Numbered) -> Result<(), Problem> {

@@ -1,28 +1,30 @@
 //! Materials of glTF files, and their pictures.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use ::gltf::material::AlphaMode;
 use glam::{DVec3, Vec3};
 
 use super::{Document, buffers};
+use crate::cache::{Kept, Reuse};
 use crate::color::srgb_to_linear;
 use crate::files::Files;
-use crate::images::{Picture, Pixels, Purpose, decode_picture, decode_texture};
+use crate::images::{Picture, Pixels, Purpose, decode_picture, shared_texture};
 use crate::obj::ModelError;
-use crate::{Material, Progress, Texture, TextureId};
+use crate::{Digest, Material, Progress, Shared, Texture, TextureId};
 
 /// All materials, in the order of the file, and the textures that they use.
 pub(super) fn load(
     document: &mut Document,
     files: &Files,
+    reuse: &Reuse,
     path: &str,
     progress: &Progress,
-) -> Result<(Vec<Material>, Vec<Arc<Texture>>), ModelError> {
+) -> Result<(Vec<Material>, Vec<Shared<Texture>>), ModelError> {
     let gltf = document.gltf.clone();
     let mut pictures = Pictures {
         files,
+        reuse,
         path,
         textures: Vec::new(),
         known: HashMap::new(),
@@ -123,9 +125,20 @@ impl Document {
 /// Pictures that were read, by image and purpose.
 struct Pictures<'a> {
     files: &'a Files,
+    reuse: &'a Reuse,
     path: &'a str,
-    textures: Vec<Arc<Texture>>,
+    textures: Vec<Shared<Texture>>,
     known: HashMap<(usize, bool), Option<TextureId>>,
+}
+
+/// The mean of a picture.
+#[derive(Clone, Copy)]
+struct Mean(Vec3);
+
+impl Kept for Mean {
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
 }
 
 impl Pictures<'_> {
@@ -142,11 +155,12 @@ impl Pictures<'_> {
             return *known;
         }
         let made = self.bytes(document, image).and_then(|(name, bytes)| {
-            decode_texture(&name, &bytes, purpose).map_err(|error| error.to_string())
+            let texture = shared_texture(self.reuse, &name, &bytes, purpose);
+            texture.map_err(|error| error.to_string())
         });
         let id = match made {
             Ok(texture) => {
-                self.textures.push(Arc::new(texture));
+                self.textures.push(texture);
                 Some(TextureId(self.textures.len() as u32))
             }
             Err(error) => {
@@ -166,11 +180,15 @@ impl Pictures<'_> {
         purpose: Purpose,
     ) -> Option<Vec3> {
         let image = image_number(document, texture)?;
-        let decoded = self.bytes(document, image).and_then(|(name, bytes)| {
-            decode_picture(&name, &bytes).map_err(|error| error.to_string())
+        let found = self.bytes(document, image).and_then(|(name, bytes)| {
+            let made_of = (&name, Digest::of(&bytes), purpose);
+            self.reuse.try_get("mean of a picture", &made_of, || {
+                let picture = decode_picture(&name, &bytes).map_err(|error| error.to_string())?;
+                Ok::<_, String>(Mean(mean(&picture, purpose)))
+            })
         });
-        match decoded {
-            Ok(picture) => Some(mean(&picture, purpose)),
+        match found {
+            Ok(Mean(mean)) => Some(mean),
             Err(error) => {
                 document.warn(format!("image {image}: {error}"));
                 None

@@ -34,12 +34,17 @@ mod nodes;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
 use glam::Vec3;
 use lightbench_world::{Camera, Light, MeshBounds, RigidAnimation, Transform};
 
+use crate::cache::{Kept, Reuse};
 use crate::files::Files;
+use crate::model_meshes::ModelMeshes;
 use crate::obj::{Model, ModelError, Problem, Warning};
-use crate::{Mesh, Progress};
+use crate::{Digest, Progress};
 
 /// A scene that was read, not yet part of a world.
 #[derive(Clone, Debug)]
@@ -74,9 +79,36 @@ pub struct Node {
 struct Document {
     /// The file as the user knows it.
     path: String,
-    gltf: ::gltf::Document,
-    buffers: Vec<Vec<u8>>,
+    gltf: Arc<::gltf::Document>,
+    buffers: Arc<Vec<Vec<u8>>>,
     warnings: Vec<Warning>,
+}
+
+/// What a file holds beside materials and pictures.
+#[derive(Clone)]
+struct Geometry(Arc<(ModelMeshes, Vec<Node>, Vec<Warning>)>);
+
+impl Kept for Geometry {
+    fn bytes(&self) -> usize {
+        let (meshes, nodes, _) = &*self.0;
+        let curve = |node: &Node| node.animation.as_ref().map_or(0, animation::byte_count);
+        let nodes = nodes.iter().map(|node| size_of::<Node>() + curve(node));
+        meshes.byte_count() + nodes.sum::<usize>()
+    }
+}
+
+/// The text of a file, understood.
+#[derive(Clone)]
+struct Parsed {
+    document: Arc<::gltf::Document>,
+    text_bytes: usize,
+}
+
+impl Kept for Parsed {
+    fn bytes(&self) -> usize {
+        // Numbers and names take about the room that they take as text.
+        self.text_bytes
+    }
 }
 
 impl Document {
@@ -91,19 +123,30 @@ impl Document {
     /// Warns once for each message.
     fn warn(&mut self, message: impl Into<String>) {
         let warning = self.problem(message);
-        if !self.warnings.contains(&warning) {
-            self.warnings.push(warning);
-        }
+        add(&mut self.warnings, warning);
     }
 }
 
-/// Reads a scene with its materials and pictures.
+/// Adds a warning that is not there.
+fn add(warnings: &mut Vec<Warning>, warning: Warning) {
+    if !warnings.contains(&warning) {
+        warnings.push(warning);
+    }
+}
+
+/// Reads a scene with its materials and pictures. What an earlier load has made of the same bytes is
+/// taken from there: of the file, of its buffers and of each picture.
 ///
 /// # Errors
 /// A file that can't be read, that is no glTF, or that contradicts itself: with its path, what is
 /// wrong where, and the way out where there is one. What can be passed over becomes a warning of
 /// the model.
-pub fn load(files: &Files, path: &str, progress: &Progress) -> Result<GltfScene, ModelError> {
+pub fn load(
+    files: &Files,
+    reuse: &Reuse,
+    path: &str,
+    progress: &Progress,
+) -> Result<GltfScene, ModelError> {
     let shown = files.display(path);
     progress.begin(format!("Reading {shown}"), 0.0)?;
     let bytes = files.read(path)?;
@@ -115,48 +158,89 @@ pub fn load(files: &Files, path: &str, progress: &Progress) -> Result<GltfScene,
     if bytes.is_empty() {
         return Err(problem("the file is empty; save or copy it again".to_owned()).into());
     }
-    let parsed = parse(&bytes).map_err(|error| {
+    let not_understood = |error: String| {
         problem(format!(
             "the file can't be understood as glTF 2.0 ({error})"
         ))
-    });
-    let (document, blob) = parsed?;
-    drop(bytes);
-    let buffers = buffers::load(files, path, &document, blob).map_err(problem)?;
+    };
+    let (text, blob) = parts(bytes).map_err(not_understood)?;
+    let digest = Digest::of(&text);
+    let parsed = reuse.try_get("gltf", &digest, || parse(&text));
+    let parsed = parsed.map_err(not_understood)?;
+    let buffers = buffers::load(files, path, &parsed.document, blob).map_err(problem)?;
+    let digests: Vec<Digest> = buffers.iter().map(|buffer| Digest::of(buffer)).collect();
     let mut document = Document {
         path: shown,
-        gltf: document,
-        buffers,
+        gltf: parsed.document,
+        buffers: Arc::new(buffers),
         warnings: Vec::new(),
     };
 
     progress.begin("Reading pictures", 0.3)?;
-    let (materials, textures) = materials::load(&mut document, files, path, progress)?;
+    let (materials, textures) = materials::load(&mut document, files, reuse, path, progress)?;
 
+    let made_of = (&document.path, digest, digests);
+    let geometry = reuse.try_get("geometry of a gltf", &made_of, || {
+        geometry(&document, reuse, progress)
+    })?;
+    let (meshes, nodes, warnings) = &*geometry.0;
+    meshes.touch(reuse);
+    for warning in warnings {
+        add(&mut document.warnings, warning.clone());
+    }
+    progress.report(1.0)?;
+    Ok(GltfScene {
+        model: Model {
+            bounds: bounds(meshes),
+            meshes: meshes.list.clone(),
+            materials,
+            textures,
+            made_uvs: false,
+            warnings: document.warnings,
+        },
+        nodes: nodes.clone(),
+    })
+}
+
+/// Meshes and nodes, with warnings of their own: they must come again when pictures change and these
+/// do not.
+fn geometry(
+    document: &Document,
+    reuse: &Reuse,
+    progress: &Progress,
+) -> Result<Geometry, ModelError> {
+    let mut document = Document {
+        path: document.path.clone(),
+        gltf: Arc::clone(&document.gltf),
+        buffers: Arc::clone(&document.buffers),
+        warnings: Vec::new(),
+    };
     progress.begin("Building meshes", 0.7)?;
     let (meshes, ranges) = meshes::load(&mut document, progress)?;
 
     progress.begin("Building nodes", 0.9)?;
     let mut nodes = nodes::load(&mut document, &ranges)?;
     animation::load(&mut document, &mut nodes)?;
-    progress.report(1.0)?;
-    Ok(GltfScene {
-        model: Model {
-            bounds: bounds(&meshes),
-            meshes,
-            materials,
-            textures,
-            made_uvs: false,
-            warnings: document.warnings,
-        },
-        nodes: nodes.into_iter().map(|(_, node)| node).collect(),
-    })
+    Ok(Geometry(Arc::new((
+        ModelMeshes::share(reuse, meshes),
+        nodes.into_iter().map(|(_, node)| node).collect(),
+        document.warnings,
+    ))))
 }
 
-/// The text and the binary part of a file, whose numbers of items all exist.
-fn parse(bytes: &[u8]) -> Result<(::gltf::Document, Option<Vec<u8>>), String> {
-    let gltf = ::gltf::Gltf::from_slice_without_validation(bytes);
-    let ::gltf::Gltf { document, blob } = gltf.map_err(|error| error.to_string())?;
+/// The text and the binary part of a file.
+fn parts(bytes: Vec<u8>) -> Result<(Vec<u8>, Option<Vec<u8>>), String> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((bytes, None));
+    }
+    let glb = ::gltf::binary::Glb::from_slice(&bytes).map_err(|error| error.to_string())?;
+    Ok((glb.json.into_owned(), glb.bin.map(Cow::into_owned)))
+}
+
+/// Understands the text of a file, whose numbers of items must all exist.
+fn parse(text: &[u8]) -> Result<Parsed, String> {
+    let gltf = ::gltf::Gltf::from_slice_without_validation(text);
+    let document = gltf.map_err(|error| error.to_string())?.document;
     // The crate's own check looks up positions before it has checked their number.
     let root = document.as_json();
     for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
@@ -167,20 +251,23 @@ fn parse(bytes: &[u8]) -> Result<(::gltf::Document, Option<Vec<u8>>), String> {
         }
     }
     let document = ::gltf::Document::from_json(document.into_json());
-    Ok((document.map_err(|error| error.to_string())?, blob))
+    Ok(Parsed {
+        document: Arc::new(document.map_err(|error| error.to_string())?),
+        text_bytes: text.len(),
+    })
 }
 
 /// Around all meshes as they stand in the file, without their nodes' places.
-fn bounds(meshes: &[(Mesh, lightbench_world::MaterialId)]) -> MeshBounds {
-    let corners = meshes.iter().flat_map(|(mesh, _)| {
+fn bounds(meshes: &ModelMeshes) -> MeshBounds {
+    let corners = meshes.list.iter().flat_map(|(mesh, _)| {
         let bounds = mesh.bounds();
         let (center, half) = (bounds.center, bounds.half_extents);
         [center - half, center + half]
     });
     let positions: Vec<Vec3> = corners.collect();
-    let whole = Mesh {
+    let whole = crate::Mesh {
         positions,
-        ..Mesh::default()
+        ..crate::Mesh::default()
     };
     whole.bounds()
 }

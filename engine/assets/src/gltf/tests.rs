@@ -75,7 +75,7 @@ fn files(list: &[(&str, &[u8])]) -> (tempfile::TempDir, Files) {
 
 fn read(text: &str) -> Result<GltfScene, ModelError> {
     let (_folder, files) = files(&[("a/x.gltf", text.as_bytes())]);
-    load(&files, "a/x.gltf", &Progress::new())
+    load(&files, &Reuse::default(), "a/x.gltf", &Progress::new())
 }
 
 fn good(text: &str) -> GltfScene {
@@ -123,8 +123,11 @@ fn buffers_lie_inside_beside_and_in_the_text() {
         ("x.glb", &binary),
     ]);
     for path in ["a/x.gltf", "x.glb"] {
-        let scene = load(&files, path, &Progress::new()).unwrap();
-        assert_eq!(scene.model.meshes, expected, "{path}");
+        let scene = load(&files, &Reuse::default(), path, &Progress::new()).unwrap();
+        let [(read, number)] = scene.model.meshes.as_slice() else {
+            panic!("{path}: {:?}", scene.model.meshes);
+        };
+        assert_eq!((&read.value, number), (&mesh.value, material), "{path}");
         assert_eq!(scene.nodes[0].meshes, 0..1);
     }
 }
@@ -251,7 +254,7 @@ fn materials_are_mapped_as_the_table_says() {
         ("a/x.gltf", text.as_bytes()),
         ("a/p.png", &png([255, 0, 0, 255])),
     ]);
-    let scene = load(&files, "a/x.gltf", &Progress::new()).unwrap();
+    let scene = load(&files, &Reuse::default(), "a/x.gltf", &Progress::new()).unwrap();
     let [paint, metal, glass] = scene.model.materials.as_slice() else {
         panic!("{:?}", scene.model.materials);
     };
@@ -523,7 +526,7 @@ fn what_contradicts_itself_is_refused_with_its_path() {
     let binary = glb(&with_triangle("", ""), &triangle().0);
     for length in 0..binary.len() {
         let (_folder, files) = files(&[("x.glb", &binary[..length])]);
-        let error = load(&files, "x.glb", &Progress::new()).unwrap_err();
+        let error = load(&files, &Reuse::default(), "x.glb", &Progress::new()).unwrap_err();
         assert!(error.to_string().contains("x.glb"), "{length}: {error}");
     }
 }
@@ -551,7 +554,7 @@ fn no_damage_is_fatal() {
             };
         }
         std::fs::write(folder.path().join("x.glb"), &damaged).unwrap();
-        match load(&files, "x.glb", &Progress::new()) {
+        match load(&files, &Reuse::default(), "x.glb", &Progress::new()) {
             Ok(scene) => {
                 read += 1;
                 for (mesh, _) in &scene.model.meshes {

@@ -12,6 +12,7 @@ use crate::files::FileError;
 
 pub use read::{
     Purpose, decode_picture, decode_texture, load_texture, load_textures, read_picture,
+    shared_texture,
 };
 pub use write::{encode_exr, encode_png, save_exr, save_png};
 

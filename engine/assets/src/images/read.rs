@@ -9,8 +9,9 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
 use super::{ImageError, Picture, Pixels};
+use crate::cache::Reuse;
 use crate::files::Files;
-use crate::{Cancelled, MAX_TEXTURE_SIZE, Progress, Texture, TextureFormat};
+use crate::{Cancelled, Digest, MAX_TEXTURE_SIZE, Progress, Shared, Texture, TextureFormat};
 
 /// The most memory that decoding may take, in bytes: a picture of the greatest
 /// size with four floats a pixel, and as much again.
@@ -49,6 +50,21 @@ pub fn decode_texture(path: &str, bytes: &[u8], purpose: Purpose) -> Result<Text
         }
     };
     texture.map_err(|error| ImageError::content(path, error.to_string()))
+}
+
+/// As [`decode_texture`], unless an earlier load has made the texture of the same bytes.
+///
+/// # Errors
+/// As [`decode_texture`].
+pub fn shared_texture(
+    reuse: &Reuse,
+    path: &str,
+    bytes: &[u8],
+    purpose: Purpose,
+) -> Result<Shared<Texture>, ImageError> {
+    reuse.try_get("picture", &(path, Digest::of(bytes), purpose), || {
+        decode_texture(path, bytes, purpose).map(Shared::shared)
+    })
 }
 
 /// Reads a picture of a file store as a texture.

@@ -11,6 +11,8 @@ use super::materials::Materials;
 use super::normals::smooth_normals;
 use super::triangulate::triangulate;
 use crate::Mesh;
+use crate::cache::{Kept, Reuse};
+use crate::model_meshes::ModelMeshes;
 
 /// All triangles of a file over shared corners. What a corner does not have is
 /// not a number.
@@ -24,10 +26,17 @@ pub(super) struct Soup {
 }
 
 /// What [`Soup::build`] gives.
+#[derive(Clone)]
 pub(super) struct Built {
-    pub(super) meshes: Vec<(Mesh, MaterialId)>,
+    pub(super) meshes: ModelMeshes,
     pub(super) bounds: MeshBounds,
     pub(super) made_uvs: bool,
+}
+
+impl Kept for Built {
+    fn bytes(&self) -> usize {
+        self.meshes.byte_count()
+    }
 }
 
 /// Runs the parser over a file in plain form and cuts its faces into triangles.
@@ -76,6 +85,15 @@ pub(super) fn parse(path: &str, clean: &Clean) -> Result<Soup, Problem> {
 }
 
 impl Soup {
+    /// Bytes of all arrays.
+    pub(super) fn byte_count(&self) -> usize {
+        size_of_val(self.positions.as_slice())
+            + size_of_val(self.uvs.as_slice())
+            + size_of_val(self.normals.as_slice())
+            + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.names.as_slice())
+    }
+
     fn add(&mut self, mesh: &tobj::Mesh) {
         let first = self.positions.len() as u32;
         self.positions
@@ -120,10 +138,11 @@ impl Soup {
     /// Makes one mesh for each material, with all that was missing.
     pub(super) fn build(
         &self,
+        reuse: &Reuse,
         name: &str,
         crease_angle: f32,
         materials: &Materials,
-    ) -> Result<Built, crate::Cancelled> {
+    ) -> Built {
         let whole = Mesh {
             positions: self.positions.clone(),
             ..Mesh::default()
@@ -189,11 +208,11 @@ impl Soup {
             };
             mesh.recompute_tangents();
         }
-        Ok(Built {
-            meshes,
+        Built {
+            meshes: ModelMeshes::share(reuse, meshes),
             bounds,
             made_uvs,
-        })
+        }
     }
 
     /// Looks along the axis nearest to the triangle's normal.

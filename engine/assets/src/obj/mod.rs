@@ -37,8 +37,9 @@ use std::sync::Arc;
 use lightbench_world::{MaterialId, MeshBounds, MeshId};
 use thiserror::Error;
 
+use crate::cache::{Kept, Reuse};
 use crate::files::{FileError, Files, with_plain_line_ends};
-use crate::{Assets, Cancelled, Material, Mesh, Progress, Texture, TextureId};
+use crate::{Assets, Cancelled, Digest, Material, Mesh, Progress, Shared, Texture, TextureId};
 
 /// How a model is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,11 +102,11 @@ pub enum ModelError {
 #[derive(Clone, Debug)]
 pub struct Model {
     /// One mesh for each material.
-    pub meshes: Vec<(Mesh, MaterialId)>,
+    pub meshes: Vec<(Shared<Mesh>, MaterialId)>,
     /// The materials that are used.
     pub materials: Vec<Material>,
     /// The pictures that are used.
-    pub textures: Vec<Arc<Texture>>,
+    pub textures: Vec<Shared<Texture>>,
     /// Around all meshes.
     pub bounds: MeshBounds,
     /// Whether some texture coordinates were missing and had to be made.
@@ -132,7 +133,7 @@ impl Model {
         }
         let meshes = self.meshes.into_iter();
         meshes
-            .map(|(mesh, material)| (assets.add_mesh(mesh), materials[material.0 as usize]))
+            .map(|(mesh, material)| (assets.add_shared_mesh(mesh), materials[material.0 as usize]))
             .collect()
     }
 
@@ -146,7 +147,23 @@ impl Model {
     }
 }
 
-/// Reads a model with its materials and pictures.
+/// An OBJ file as it was read, before anything is known of its materials.
+struct Parsed {
+    /// What the file names. The text itself is not kept.
+    clean: clean::Clean,
+    soup: build::Soup,
+    warnings: Vec<Warning>,
+}
+
+impl Kept for Arc<Parsed> {
+    fn bytes(&self) -> usize {
+        self.soup.byte_count()
+    }
+}
+
+/// Reads a model with its materials and pictures. What an earlier load has made
+/// of the same bytes is taken from there: of the OBJ file, of each material
+/// library and of each picture.
 ///
 /// # Errors
 /// A file that can't be read, that is no OBJ, or that contradicts itself: with
@@ -154,36 +171,49 @@ impl Model {
 /// over becomes a warning of the model.
 pub fn load(
     files: &Files,
+    reuse: &Reuse,
     path: &str,
     options: &Options,
     progress: &Progress,
 ) -> Result<Model, ModelError> {
     let shown = files.display(path);
     progress.begin(format!("Reading {shown}"), 0.0)?;
-    let text = read_text(files, path)?;
-
-    progress.begin(format!("Checking {shown}"), 0.1)?;
-    let mut warnings = Warnings::new(&shown);
-    let clean = clean::clean(&shown, &text, &mut warnings)?;
-    drop(text);
-    let soup = build::parse(&shown, &clean)?;
+    let bytes = files.read(path)?;
+    let content = (&shown, Digest::of(&bytes));
+    let parsed = reuse.try_get("obj", &content, || {
+        progress.begin(format!("Checking {shown}"), 0.1)?;
+        parse(&shown, bytes).map(Arc::new)
+    })?;
+    let mut warnings = Warnings {
+        path: shown.clone(),
+        list: parsed.warnings.clone(),
+    };
 
     progress.begin("Reading materials", 0.4)?;
-    let library = mtl::load_libraries(files, path, &clean.libraries, &mut warnings);
-    let mut materials = materials::Materials::new(files, &library, &clean, &mut warnings);
+    let clean = &parsed.clean;
+    let library = mtl::load_libraries(files, reuse, path, &clean.libraries, &mut warnings);
+    let mut materials = materials::Materials::new(files, &library, clean, &mut warnings);
 
     progress.begin("Reading pictures", 0.5)?;
-    let textures = textures::load(files, &mut materials, &mut warnings, &|share| {
+    let textures = textures::load(files, reuse, &mut materials, &mut warnings, &|share| {
         progress.report(0.5 + 0.2 * share)
     })?;
 
     progress.begin("Building meshes", 0.7)?;
     let name = path.rsplit('/').next().unwrap_or(path);
     let name = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let built = soup.build(name, options.crease_angle, &materials)?;
+    // What the meshes take from the materials, beside the file itself.
+    let names = materials.materials.iter().map(|material| &material.name);
+    let names: Vec<&String> = names.collect();
+    let made_of = (&content, name, options, &materials.numbers, names);
+    let built = reuse.get("meshes of an obj", &made_of, || {
+        let crease = options.crease_angle;
+        parsed.soup.build(reuse, name, crease, &materials)
+    });
+    built.meshes.touch(reuse);
     progress.report(1.0)?;
     Ok(Model {
-        meshes: built.meshes,
+        meshes: built.meshes.list,
         materials: materials.materials,
         textures,
         bounds: built.bounds,
@@ -192,22 +222,35 @@ pub fn load(
     })
 }
 
+fn parse(shown: &str, bytes: Vec<u8>) -> Result<Parsed, ModelError> {
+    let text = text_of(shown, bytes)?;
+    let mut warnings = Warnings::new(shown);
+    let mut clean = clean::clean(shown, &text, &mut warnings)?;
+    drop(text);
+    let soup = build::parse(shown, &clean)?;
+    clean.text = String::new();
+    Ok(Parsed {
+        clean,
+        soup,
+        warnings: warnings.list,
+    })
+}
+
 /// The text of an OBJ or MTL file. Old ones that are not UTF-8 are taken as
 /// Latin-1, in which every byte is a letter.
-fn read_text(files: &Files, path: &str) -> Result<String, ModelError> {
-    let bytes = files.read(path)?;
+fn text_of(shown: &str, bytes: Vec<u8>) -> Result<String, Problem> {
     let problem = |message: &str| Problem {
-        path: files.display(path),
+        path: shown.to_owned(),
         line: None,
         message: message.to_owned(),
     };
     if bytes.is_empty() {
-        return Err(problem("the file is empty; save or copy it again").into());
+        return Err(problem("the file is empty; save or copy it again"));
     }
     if bytes.contains(&0) {
-        return Err(
-            problem("this is a binary file, no OBJ or MTL text; export the model as OBJ").into(),
-        );
+        return Err(problem(
+            "this is a binary file, no OBJ or MTL text; export the model as OBJ",
+        ));
     }
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
@@ -231,6 +274,13 @@ impl Warnings {
         Self {
             path: path.to_owned(),
             list: Vec::new(),
+        }
+    }
+
+    /// Warns of what was found before.
+    fn add_all(&mut self, warnings: &[Warning]) {
+        for warning in warnings {
+            self.add_in(&warning.path, warning.line, &warning.message);
         }
     }
 

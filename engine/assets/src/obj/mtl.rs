@@ -3,24 +3,42 @@
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::clean::{keyword, logical_lines, shortened};
-use super::{Warnings, read_text};
+use super::{Warning, Warnings, text_of};
+use crate::Digest;
+use crate::cache::{Kept, Reuse};
 use crate::files::{Files, join};
 
 /// A material as its library has it.
+#[derive(Clone)]
 pub(super) struct Entry {
     pub(super) material: tobj::Material,
     /// Of the library, for paths of pictures.
     pub(super) library: String,
     /// Where its library names each picture first.
-    pub(super) map_lines: Rc<HashMap<String, usize>>,
+    pub(super) map_lines: Arc<HashMap<String, usize>>,
+}
+
+/// What a library holds, and what is wrong with it.
+struct Library {
+    entries: Vec<Entry>,
+    warnings: Vec<Warning>,
+    file_bytes: usize,
+}
+
+impl Kept for Arc<Library> {
+    fn bytes(&self) -> usize {
+        // The materials are about as long as their text.
+        self.file_bytes
+    }
 }
 
 /// Reads all libraries that an OBJ file names; what is wrong becomes warnings.
 pub(super) fn load_libraries(
     files: &Files,
+    reuse: &Reuse,
     obj: &str,
     libraries: &[(String, usize)],
     warnings: &mut Warnings,
@@ -38,7 +56,11 @@ pub(super) fn load_libraries(
         let any = parts.iter().any(|name| find(files, obj, name).is_some());
         for name in if any { parts } else { single.to_vec() } {
             match find(files, obj, name) {
-                Some(path) => entries.extend(read_library(files, &path, warnings)),
+                Some(path) => {
+                    let library = read_library(files, reuse, &path);
+                    entries.extend(library.entries.iter().cloned());
+                    warnings.add_all(&library.warnings);
+                }
                 None => warnings.add(
                     *line,
                     &format!("the material file `{name}` is not there; put it beside the model"),
@@ -65,39 +87,56 @@ pub(super) fn find(files: &Files, from: &str, name: &str) -> Option<String> {
     })
 }
 
-fn read_library(files: &Files, path: &str, warnings: &mut Warnings) -> Vec<Entry> {
+fn read_library(files: &Files, reuse: &Reuse, path: &str) -> Arc<Library> {
     let shown = files.display(path);
-    let text = match read_text(files, path) {
-        Ok(text) => text,
-        Err(super::ModelError::Content(problem)) => {
-            warnings.add_in(&shown, None, &problem.message);
-            return Vec::new();
-        }
-        Err(error) => {
-            warnings.add_in(&shown, None, &error.to_string());
-            return Vec::new();
-        }
-    };
-    let (clean, map_lines) = clean(&shown, &text, warnings);
-    let map_lines = Rc::new(map_lines);
-    match tobj::load_mtl_buf(&mut clean.as_bytes()) {
-        Ok((materials, _)) => materials
-            .into_iter()
-            .map(|material| Entry {
-                material,
-                library: path.to_owned(),
-                map_lines: Rc::clone(&map_lines),
-            })
-            .collect(),
-        Err(error) => {
-            warnings.add_in(
-                &shown,
-                None,
-                &format!("the materials could not be read ({error})"),
-            );
-            Vec::new()
-        }
+    match files.read(path) {
+        Ok(bytes) => reuse.get("mtl", &(path, &shown, Digest::of(&bytes)), || {
+            Arc::new(parse_library(path, &shown, bytes))
+        }),
+        Err(error) => Arc::new(Library {
+            entries: Vec::new(),
+            warnings: vec![Warning {
+                path: shown,
+                line: None,
+                message: error.to_string(),
+            }],
+            file_bytes: 0,
+        }),
     }
+}
+
+fn parse_library(path: &str, shown: &str, bytes: Vec<u8>) -> Library {
+    let mut library = Library {
+        entries: Vec::new(),
+        warnings: Vec::new(),
+        file_bytes: bytes.len(),
+    };
+    let mut warnings = Warnings::new(shown);
+    match text_of(shown, bytes) {
+        Ok(text) => {
+            let (clean, map_lines) = clean(shown, &text, &mut warnings);
+            let map_lines = Arc::new(map_lines);
+            match tobj::load_mtl_buf(&mut clean.as_bytes()) {
+                Ok((materials, _)) => {
+                    library.entries = materials
+                        .into_iter()
+                        .map(|material| Entry {
+                            material,
+                            library: path.to_owned(),
+                            map_lines: Arc::clone(&map_lines),
+                        })
+                        .collect();
+                }
+                Err(error) => {
+                    let message = format!("the materials could not be read ({error})");
+                    warnings.add_in(shown, None, &message);
+                }
+            }
+        }
+        Err(problem) => warnings.add_in(shown, None, &problem.message),
+    }
+    library.warnings = warnings.list;
+    library
 }
 
 /// Keeps the lines that are carried, in the form that the parser reads, and

@@ -1,65 +1,66 @@
 //! The pictures of a model, decoded in parallel.
 
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::Warnings;
 use super::materials::{Kind, Materials, Request};
+use crate::cache::{Kept, Key, Reuse};
 use crate::files::Files;
 use crate::images::{Picture, Pixels, decode_picture};
 use crate::procedural_texture::normal_map_from_heights;
-use crate::{Cancelled, Texture, TextureFormat, TextureId};
+use crate::{Cancelled, Digest, Shared, Texture, TextureFormat, TextureId};
+
+/// What came of a request.
+#[derive(Clone, Default)]
+struct Made {
+    texture: Option<Shared<Texture>>,
+    /// What is wrong with the picture or its mask, by path.
+    problems: Vec<(String, String)>,
+}
+
+impl Kept for Made {
+    fn bytes(&self) -> usize {
+        self.texture.as_ref().map_or(0, Kept::bytes)
+    }
+}
+
+/// The bytes of a picture and their digest, or what is wrong, without its path.
+type Content = Result<(Vec<u8>, Digest), String>;
 
 /// Loads what the materials ask for. A picture that can't be had gets one
 /// warning; as base colour it is the placeholder, as normals it is left out.
 /// The textures are numbered anew, without those.
 pub(super) fn load(
     files: &Files,
+    reuse: &Reuse,
     materials: &mut Materials,
     warnings: &mut Warnings,
     report: &(impl Fn(f32) -> Result<(), Cancelled> + Sync),
-) -> Result<Vec<Arc<Texture>>, Cancelled> {
-    let mut paths: BTreeSet<&str> = BTreeSet::new();
-    for request in &materials.requests {
-        paths.insert(&request.path);
-        if let Kind::Color { mask: Some(mask) } = &request.kind {
-            paths.insert(mask);
-        }
-    }
-    let paths: Vec<&str> = paths.into_iter().collect();
-    let done = AtomicUsize::new(0);
-    let decoded: Vec<Result<Picture, String>> = paths
-        .par_iter()
+) -> Result<Vec<Shared<Texture>>, Cancelled> {
+    let contents: BTreeMap<&str, Content> = paths(&materials.requests)
+        .into_par_iter()
         .map(|path| {
-            let share = done.fetch_add(1, Ordering::Relaxed) as f32 / paths.len() as f32;
-            report(share)?;
-            Ok(decode(files, path))
+            report(0.0)?;
+            Ok((path, read(files, path)))
         })
         .collect::<Result<_, Cancelled>>()?;
+    let made = make_all(reuse, &materials.requests, &contents, report)?;
 
-    for (path, picture) in paths.iter().zip(&decoded) {
-        if let Err(problem) = picture {
-            warnings.add_in(&files.display(path), None, problem);
-        }
+    let mut problems: BTreeMap<&str, &str> = BTreeMap::new();
+    for (path, problem) in made.iter().flat_map(|made| &made.problems) {
+        problems.insert(path, problem);
     }
-    let picture = |path: &str| {
-        let at = paths.binary_search(&path).ok()?;
-        decoded[at].as_ref().ok()
-    };
-    let made: Vec<Option<Texture>> = materials
-        .requests
-        .par_iter()
-        .map(|request| make(request, picture))
-        .collect();
-
+    for (path, problem) in problems {
+        warnings.add_in(&files.display(path), None, problem);
+    }
     let mut textures = Vec::new();
     let numbers: Vec<Option<TextureId>> = made
         .into_iter()
-        .map(|texture| {
-            textures.push(Arc::new(texture?));
+        .map(|made| {
+            textures.push(made.texture?);
             Some(TextureId(textures.len() as u32))
         })
         .collect();
@@ -75,13 +76,90 @@ pub(super) fn load(
     Ok(textures)
 }
 
-/// A picture, or what is wrong with it, without its path.
-fn decode(files: &Files, path: &str) -> Result<Picture, String> {
+/// All pictures that requests name, each once, in order.
+fn paths<'a>(requests: impl IntoIterator<Item = &'a Request>) -> Vec<&'a str> {
+    let mut paths: Vec<&str> = requests.into_iter().flat_map(named).collect();
+    paths.sort_unstable();
+    paths.dedup();
+    paths
+}
+
+/// The pictures that a request names.
+fn named(request: &Request) -> impl Iterator<Item = &str> {
+    let mask = match &request.kind {
+        Kind::Color { mask } => mask.as_deref(),
+        Kind::Mask | Kind::Normal { .. } => None,
+    };
+    std::iter::once(request.path.as_str()).chain(mask)
+}
+
+fn read(files: &Files, path: &str) -> Content {
     let bytes = files.read(path).map_err(|error| error.to_string())?;
-    decode_picture(path, &bytes).map_err(|error| match error {
+    let digest = Digest::of(&bytes);
+    Ok((bytes, digest))
+}
+
+fn content<'a>(
+    contents: &'a BTreeMap<&str, Content>,
+    path: &str,
+) -> Result<&'a (Vec<u8>, Digest), String> {
+    let content = contents.get(path).ok_or("it was not read")?;
+    content.as_ref().map_err(String::clone)
+}
+
+/// What comes of each request. A picture is decoded if a request needs it that was not made before,
+/// once for all such requests.
+fn make_all(
+    reuse: &Reuse,
+    requests: &[Request],
+    contents: &BTreeMap<&str, Content>,
+    report: &(impl Fn(f32) -> Result<(), Cancelled> + Sync),
+) -> Result<Vec<Made>, Cancelled> {
+    let key = |request: &Request| {
+        // A file that can't be read is as good as its message.
+        let digest = |path| content(contents, path).map(|(_, digest)| *digest);
+        let digests: Vec<_> = named(request).map(digest).collect();
+        Key::new("picture of an obj", &(request, digests))
+    };
+    let keys: Vec<Key> = requests.iter().map(key).collect();
+    let known: Vec<Option<Made>> = keys.iter().map(|key| reuse.find(key)).collect();
+
+    let unknown = requests.iter().zip(&known);
+    let unknown = unknown.filter_map(|(request, known)| known.is_none().then_some(request));
+    let wanted = paths(unknown);
+    let done = AtomicUsize::new(0);
+    let decoded: BTreeMap<&str, Result<Picture, String>> = wanted
+        .par_iter()
+        .map(|path| {
+            report(done.fetch_add(1, Ordering::Relaxed) as f32 / wanted.len() as f32)?;
+            Ok((*path, decode(path, contents)))
+        })
+        .collect::<Result<_, Cancelled>>()?;
+    let made = known.into_par_iter().zip(keys).zip(requests);
+    let made = made.map(|((known, key), request)| {
+        known.unwrap_or_else(|| reuse.keep(key, make_one(request, &decoded)))
+    });
+    Ok(made.collect())
+}
+
+fn decode(path: &str, contents: &BTreeMap<&str, Content>) -> Result<Picture, String> {
+    let (bytes, _) = content(contents, path)?;
+    decode_picture(path, bytes).map_err(|error| match error {
         crate::images::ImageError::Content { problem, .. } => problem,
         other => other.to_string(),
     })
+}
+
+fn make_one(request: &Request, decoded: &BTreeMap<&str, Result<Picture, String>>) -> Made {
+    let problem = |path: &str| {
+        let problem = decoded.get(path)?.as_ref().err()?;
+        Some((path.to_owned(), problem.clone()))
+    };
+    let picture = |path: &str| decoded.get(path)?.as_ref().ok();
+    Made {
+        texture: make(request, picture).map(Shared::shared),
+        problems: named(request).filter_map(problem).collect(),
+    }
 }
 
 fn make<'a>(request: &Request, picture: impl Fn(&str) -> Option<&'a Picture>) -> Option<Texture> {

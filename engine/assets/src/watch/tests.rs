@@ -145,6 +145,7 @@ fn a_hundred_saves_in_a_second_end_with_the_last() {
         }
     });
     let files = Files::with_project(project.folder.path()).unwrap();
+    let began = Instant::now();
     let mut reports = 0;
     let mut read = String::new();
     // Until nothing more comes for a while.
@@ -154,7 +155,11 @@ fn a_hundred_saves_in_a_second_end_with_the_last() {
     }
     writer.join().unwrap();
     assert_eq!(read, "save 99");
-    assert!(reports < 50, "{reports} reports of 100 saves");
+    let most = began.elapsed().as_millis() / SETTLE.as_millis() + 1;
+    assert!(
+        reports <= most,
+        "{reports} reports, at most {most} expected"
+    );
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use lightbench_assets::Digest;
 use lightbench_assets::files::Files;
-use sha2::{Digest, Sha256};
 
 use crate::report::Input;
 
@@ -22,7 +22,9 @@ impl Inputs {
     pub fn watch(&self, files: &Files) -> Files {
         let noted = self.clone();
         files.observed(move |path, bytes| {
-            noted.lock().insert(path.to_owned(), sha256(bytes));
+            noted
+                .lock()
+                .insert(path.to_owned(), Digest::of(bytes).to_string());
         })
     }
 
@@ -44,12 +46,6 @@ impl Inputs {
     fn lock(&self) -> MutexGuard<'_, BTreeMap<String, String>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// SHA-256 (FIPS 180-4) as hexadecimal digits.
-fn sha256(bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -26,6 +26,25 @@ impl Machine {
     }
 }
 
+/// Bytes of memory that this process has at the moment; `None` where the system does not tell.
+pub fn resident_bytes() -> Option<u64> {
+    let this = sysinfo::get_current_pid().ok()?;
+    let mut system = System::new();
+    system.refresh_processes_specifics(
+        sysinfo::ProcessesToUpdate::Some(&[this]),
+        false,
+        sysinfo::ProcessRefreshKind::nothing().with_memory(),
+    );
+    system.process(this).map(sysinfo::Process::memory)
+}
+
+/// How many programs wanted a core at a time, on average over the last minute; `None` where the
+/// system does not tell.
+pub fn load_average() -> Option<f64> {
+    let average = System::load_average().one;
+    (average > 0.0).then_some(average)
+}
+
 impl From<&AdapterSummary> for Adapter {
     fn from(summary: &AdapterSummary) -> Self {
         Self {
@@ -49,5 +68,14 @@ mod tests {
         assert!(!machine.cpu.is_empty() && !machine.os.is_empty());
         assert!(machine.cores >= 1);
         assert!(machine.memory_bytes > 64 << 20, "{machine:?}");
+    }
+
+    #[test]
+    fn memory_that_is_taken_is_seen() {
+        let before = resident_bytes().unwrap_or(0);
+        let taken = std::hint::black_box(vec![1_u8; 64 << 20]);
+        let after = resident_bytes().unwrap_or(0);
+        assert!(after > before + (48 << 20), "{before} {after}");
+        assert_eq!(taken[taken.len() / 2], 1);
     }
 }

@@ -17,6 +17,7 @@ use lightbench_render::{FrameStatistics, Pipeline, Problem, RenderError, Rendere
 use lightbench_script::Scene;
 
 pub use inputs::Inputs;
+pub use machine::{load_average, resident_bytes};
 
 use crate::HdrImage;
 use crate::capture::{STEP, draw, read_hdr, read_output};

@@ -35,6 +35,10 @@ pub(super) struct Series {
     /// GPU time of each frame and of its passes; NaN where a frame's queries were lost.
     frames: Vec<f64>,
     passes: Vec<Vec<f64>>,
+    /// How many of the counters the GPU counts; the others count lights without a place.
+    counters: usize,
+    /// The passes that spread lights over arrays, in the order of those counters.
+    spreading: Vec<usize>,
 }
 
 impl Series {
@@ -60,6 +64,13 @@ impl Series {
             description: counter.description.clone(),
             values: Vec::with_capacity(frames),
         });
+        let unplaced = desc.passes.iter().filter_map(|pass| {
+            Some(CounterResult {
+                name: format!("unplaced_lights of {}", pass.name),
+                description: pass.unplaced_in_words()?,
+                values: Vec::with_capacity(frames),
+            })
+        });
         Self {
             result: PipelineResult {
                 name: desc.name.clone(),
@@ -69,13 +80,28 @@ impl Series {
                 features_needed: desc.features_needed(),
                 notes: pipeline.notes.clone(),
                 abilities: abilities.collect(),
-                counters: counters.collect(),
+                counters: counters.chain(unplaced).collect(),
                 passes: passes.collect(),
                 frame_cpu_ms: Vec::with_capacity(frames),
                 ..PipelineResult::default()
             },
             frames: Vec::with_capacity(frames),
             passes: vec![Vec::with_capacity(frames); desc.passes.len()],
+            counters: desc.counters.len(),
+            spreading: (0..desc.passes.len())
+                .filter(|index| desc.passes[*index].unplaced_in_words().is_some())
+                .collect(),
+        }
+    }
+
+    /// Says once that lights shine beyond their clip volumes.
+    fn note_unconfined(&mut self, lights: u32) {
+        let notes = &mut self.result.notes;
+        let about = "shine beyond their clip volumes";
+        if lights > 0 && !notes.iter().any(|note| note.contains(about)) {
+            notes.push(format!(
+                "{lights} lights {about}: this pipeline can't confine them"
+            ));
         }
     }
 
@@ -96,13 +122,19 @@ impl Series {
                 self.result.notes.push(note);
             }
         }
+        self.note_unconfined(statistics.unconfined_lights);
         let cpu = statistics.extract_ms + statistics.record_ms;
         self.result.frame_cpu_ms.push(cpu);
         let total = measured.and_then(|measured| measured.total_ms);
         self.frames.push(total.unwrap_or(f64::NAN));
         let counts = measured.map_or(&[][..], |measured| &measured.counters);
-        for (counter, value) in self.result.counters.iter_mut().zip(counts) {
+        let (counted, unplaced) = self.result.counters.split_at_mut(self.counters);
+        for (counter, value) in counted.iter_mut().zip(counts) {
             counter.values.push(f64::from(*value));
+        }
+        for (counter, pass) in unplaced.iter_mut().zip(&self.spreading) {
+            let cost = &statistics.passes[*pass];
+            counter.values.push(f64::from(cost.unplaced_lights));
         }
         let passes = self.result.passes.iter_mut().zip(&mut self.passes);
         for (index, ((pass, times), cost)) in passes.zip(&statistics.passes).enumerate() {
@@ -116,8 +148,13 @@ impl Series {
             pass.dropped = cost.dropped;
             pass.bytes_read = cost.traffic.read;
             pass.bytes_written = cost.traffic.written;
+            pass.bytes_stencil = cost.traffic.stencil;
+            pass.bytes_loaded = cost.traffic.loaded;
+            pass.bytes_stored = cost.traffic.stored;
             if let Some(measured) = measured {
                 pass.fragments = measured.fragments.get(index).copied();
+                let fragments = pass.fragments.filter(|_| cost.traffic.pixels > 0);
+                pass.bytes_overdraw = fragments.map(|count| cost.traffic.overdraw(count));
                 pass.vertices = measured.vertices.get(index).copied();
             }
         }

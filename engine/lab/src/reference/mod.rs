@@ -6,7 +6,9 @@
 pub mod brdf;
 pub mod color;
 pub mod g_buffer;
+pub mod index_packing;
 pub mod lighting;
 pub mod normals;
+pub mod triangle;
 
 pub use lighting::{Surface, evaluate_light, outgoing_radiance};

@@ -139,9 +139,14 @@ pub fn passes(c: &Comparison) -> String {
         "instances",
         "triangles",
         "fragments",
+        "vertices",
         "dispatches",
         "bytes_read_modelled",
         "bytes_written_modelled",
+        "bytes_stencil_modelled",
+        "bytes_loaded_modelled",
+        "bytes_stored_modelled",
+        "bytes_overdraw_modelled",
         "why_not",
     ]);
     for p in &c.pipelines {
@@ -155,10 +160,13 @@ pub fn passes(c: &Comparison) -> String {
             row.extend(times(pass.gpu_ms.as_deref().and_then(Summary::of)));
             row.extend(times(Summary::of(&pass.cpu_ms)));
             row.extend([pass.draws, pass.instances, pass.triangles].map(|n| n.to_string()));
-            row.push(cell(pass.fragments));
+            row.extend([pass.fragments, pass.vertices].map(cell));
+            row.push(pass.dispatches.to_string());
+            row.extend([pass.bytes_read, pass.bytes_written].map(|n| n.to_string()));
             row.extend(
-                [pass.dispatches, pass.bytes_read, pass.bytes_written].map(|n| n.to_string()),
+                [pass.bytes_stencil, pass.bytes_loaded, pass.bytes_stored].map(|n| n.to_string()),
             );
+            row.push(cell(pass.bytes_overdraw));
             row.push(pass.why_not.clone().unwrap_or_default());
             table.row(row);
         }

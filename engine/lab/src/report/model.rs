@@ -234,6 +234,18 @@ pub struct PassResult {
     pub bytes_read: u64,
     /// Bytes written, modelled from the declared formats and sizes.
     pub bytes_written: u64,
+    /// Bytes of stencil tested and written, modelled.
+    #[serde(default)]
+    pub bytes_stencil: u64,
+    /// Bytes of attachments that a tile-based GPU loads before the pass, modelled.
+    #[serde(default)]
+    pub bytes_loaded: u64,
+    /// Bytes of attachments that a tile-based GPU stores after the pass, modelled.
+    #[serde(default)]
+    pub bytes_stored: u64,
+    /// Bytes of fragments beyond one a covered pixel, where the adapter counts fragments.
+    #[serde(default)]
+    pub bytes_overdraw: Option<u64>,
     /// Why a value is absent.
     pub why_not: Option<String>,
 }

@@ -58,6 +58,9 @@ fn pass(name: &str, kind: &str, gpu: f64, draws: u64, written: u64) -> PassResul
         dispatches: u64::from(kind == "compute") * 3600,
         bytes_read: written / 2,
         bytes_written: written,
+        bytes_loaded: written / 4,
+        bytes_stored: written,
+        bytes_overdraw: Some(written / 3),
         why_not: None,
         ..PassResult::default()
     }

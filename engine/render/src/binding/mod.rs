@@ -19,10 +19,13 @@ const SAMPLERS: [(&str, Source); 3] = [
 
 /// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
 /// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 3] = [
+const ENGINE_BUFFERS: [(&str, EngineBuffer); 6] = [
     ("mesh_positions", EngineBuffer::MeshPositions),
     ("mesh_attributes", EngineBuffer::MeshAttributes),
+    ("mesh_groups", EngineBuffer::MeshGroups),
     ("mesh_indices", EngineBuffer::MeshIndices),
+    ("shadow_views", EngineBuffer::ShadowViews),
+    ("light_shadows", EngineBuffer::LightShadows),
 ];
 
 /// A buffer that the engine fills.
@@ -32,8 +35,29 @@ pub enum EngineBuffer {
     MeshPositions,
     /// Normal, texture coordinates and tangent of each vertex: nine floats.
     MeshAttributes,
+    /// The smooth group of each vertex, in a byte: four vertices a word, the first in the lowest
+    /// bits. A mesh of more than 256 groups gives some of them the same number.
+    MeshGroups,
     /// Indices of all meshes.
     MeshIndices,
+    /// The views of all `shadow` passes: see `shaders/lib/shadow.wgsl`.
+    ShadowViews,
+    /// Of each light the first of its shadow views.
+    LightShadows,
+}
+
+impl EngineBuffer {
+    /// For messages.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::MeshPositions => "vertex positions",
+            Self::MeshAttributes => "normals, texture coordinates and tangents",
+            Self::MeshGroups => "smooth groups",
+            Self::MeshIndices => "indices",
+            Self::ShadowViews => "shadow views",
+            Self::LightShadows => "numbers of shadow views",
+        }
+    }
 }
 
 /// Where the resource of one binding of group 1 comes from.

@@ -3,9 +3,10 @@
 use lightbench_assets::files::Files;
 
 use super::cache::PipelineKey;
-use super::state::{Channels, DrawPipeline, State, VertexStreams, blend};
+use super::state::{Channels, State, VertexStreams, blend};
 use super::{Compiler, PassLayout};
 use crate::description::{PassDesc, PipelineDesc, ShaderDesc};
+use crate::gpu_pipelines::DrawPipeline;
 use crate::problem::Problem;
 use crate::reflection::{FRAGMENT_ENTRY, VERTEX_ENTRY};
 
@@ -52,8 +53,8 @@ impl Compiler {
         let depth_stencil = depth_state(desc, pass, state);
         let samples = samples(desc, pass);
         let key = PipelineKey {
-            vertex: vertex.fingerprint,
-            fragment: fragment.map(|fragment| fragment.fingerprint),
+            vertex: vertex.shader.fingerprint,
+            fragment: fragment.map(|fragment| fragment.shader.fingerprint),
             state: format!(
                 "{colors:?} {depth_stencil:?} {:?} {:?} {} {samples} {}",
                 state.front, state.cull, state.unclipped_depth, layout.key
@@ -61,10 +62,7 @@ impl Compiler {
         };
         let attributes = streams == VertexStreams::All;
         if let Some(pipeline) = self.built.get(&key) {
-            return Ok(DrawPipeline {
-                pipeline,
-                attributes,
-            });
+            return Ok(pipeline);
         }
         let descriptor = wgpu::RenderPipelineDescriptor {
             label: Some(&pass.name),
@@ -78,12 +76,7 @@ impl Compiler {
             primitive: wgpu::PrimitiveState {
                 front_face: state.front,
                 cull_mode: state.cull,
-                unclipped_depth: state.unclipped_depth
-                    && self
-                        .gpu
-                        .device
-                        .features()
-                        .contains(wgpu::Features::DEPTH_CLIP_CONTROL),
+                unclipped_depth: state.unclipped_depth && self.gpu.clamps_depth(),
                 ..Default::default()
             },
             depth_stencil,
@@ -110,11 +103,9 @@ impl Compiler {
                     format!("the pass `{}` can't be built: {error}", pass.name),
                 )
             })?;
+        let pipeline = DrawPipeline::new(pipeline, attributes);
         self.built.insert(key, &pipeline);
-        Ok(DrawPipeline {
-            pipeline,
-            attributes,
-        })
+        Ok(pipeline)
     }
 }
 

@@ -5,6 +5,8 @@
 
 use std::collections::HashMap;
 
+use crate::gpu_pipelines::{ComputePipeline, DrawPipeline};
+
 /// What a pipeline is made of; equal keys make equal pipelines.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct PipelineKey {
@@ -26,8 +28,8 @@ type Kept<P> = HashMap<PipelineKey, (P, u64)>;
 /// Pipelines by what they are made of.
 #[derive(Default)]
 pub(super) struct PipelineCache {
-    render: Kept<wgpu::RenderPipeline>,
-    compute: Kept<wgpu::ComputePipeline>,
+    render: Kept<DrawPipeline>,
+    compute: Kept<ComputePipeline>,
     compilation: u64,
 }
 
@@ -41,23 +43,23 @@ impl PipelineCache {
     }
 
     /// The render pipeline of that key.
-    pub fn get(&mut self, key: &PipelineKey) -> Option<wgpu::RenderPipeline> {
+    pub fn get(&mut self, key: &PipelineKey) -> Option<DrawPipeline> {
         take(&mut self.render, key, self.compilation)
     }
 
     /// Keeps a render pipeline.
-    pub fn insert(&mut self, key: PipelineKey, pipeline: &wgpu::RenderPipeline) {
+    pub fn insert(&mut self, key: PipelineKey, pipeline: &DrawPipeline) {
         self.render
             .insert(key, (pipeline.clone(), self.compilation));
     }
 
     /// The compute pipeline of that key.
-    pub fn get_compute(&mut self, key: &PipelineKey) -> Option<wgpu::ComputePipeline> {
+    pub fn get_compute(&mut self, key: &PipelineKey) -> Option<ComputePipeline> {
         take(&mut self.compute, key, self.compilation)
     }
 
     /// Keeps a compute pipeline.
-    pub fn insert_compute(&mut self, key: PipelineKey, pipeline: &wgpu::ComputePipeline) {
+    pub fn insert_compute(&mut self, key: PipelineKey, pipeline: &ComputePipeline) {
         self.compute
             .insert(key, (pipeline.clone(), self.compilation));
     }

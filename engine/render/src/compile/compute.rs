@@ -5,7 +5,7 @@ use lightbench_assets::files::Files;
 use super::cache::PipelineKey;
 use super::{Compiler, PassLayout};
 use crate::description::PassDesc;
-use crate::pipeline::PassPipelines;
+use crate::gpu_pipelines::{ComputePipeline, PassPipelines, Warmth};
 use crate::problem::Problem;
 use crate::reflection::COMPUTE_ENTRY;
 
@@ -26,15 +26,12 @@ impl Compiler {
         let loaded = &self.shaders[&(shader.path.clone(), Vec::new(), shader.defines.clone())];
         let workgroup = loaded.reflection.workgroup_size.unwrap_or([1; 3]);
         let key = PipelineKey {
-            vertex: loaded.fingerprint,
+            vertex: loaded.shader.fingerprint,
             fragment: None,
             state: format!("compute {}", layout.key),
         };
         if let Some(pipeline) = self.built.get_compute(&key) {
-            return Ok(PassPipelines::Compute {
-                pipeline,
-                workgroup,
-            });
+            return Ok(PassPipelines::Compute(pipeline));
         }
         let descriptor = wgpu::ComputePipelineDescriptor {
             label: Some(&pass.name),
@@ -53,10 +50,12 @@ impl Compiler {
                     format!("the pass `{}` can't be built: {error}", pass.name),
                 )
             })?;
-        self.built.insert_compute(key, &pipeline);
-        Ok(PassPipelines::Compute {
+        let pipeline = ComputePipeline {
             pipeline,
             workgroup,
-        })
+            warmth: Warmth::default(),
+        };
+        self.built.insert_compute(key, &pipeline);
+        Ok(PassPipelines::Compute(pipeline))
     }
 }

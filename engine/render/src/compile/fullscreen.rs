@@ -5,7 +5,7 @@ use lightbench_assets::files::Files;
 use super::state::State;
 use super::{Compiler, FULLSCREEN_VERTEX, PassLayout};
 use crate::description::{PassDesc, PipelineDesc};
-use crate::pipeline::PassPipelines;
+use crate::gpu_pipelines::PassPipelines;
 use crate::problem::Problem;
 
 impl Compiler {
@@ -18,6 +18,6 @@ impl Compiler {
     ) -> Result<PassPipelines, Problem> {
         let state = State::new(FULLSCREEN_VERTEX, pass.depth.as_ref());
         let built = self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)?;
-        Ok(PassPipelines::Fullscreen(built.pipeline))
+        Ok(PassPipelines::Fullscreen(built))
     }
 }

@@ -2,15 +2,15 @@
 
 use lightbench_assets::files::Files;
 
-use super::state::{DrawPipeline, State, marking, stencil_mark, stencil_test};
+use super::state::{State, marking, stencil_mark, stencil_test};
 use super::{Compiler, FULLSCREEN_VERTEX, GEOMETRY_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{Faces, Geometry, PassDesc, PipelineDesc};
-use crate::pipeline::{GeometryPipelines, MaskPipelines, PassPipelines};
+use crate::gpu_pipelines::{GeometryPipelines, MaskPipelines, PassPipelines};
 use crate::problem::Problem;
 use crate::variant::Variant;
 
 impl Compiler {
-    /// One pipeline for each way in which the materials of a scene can be drawn.
+    /// One pipeline for each way in which the materials of the scene are drawn.
     pub(super) fn geometry(
         &mut self,
         files: &Files,
@@ -19,13 +19,26 @@ impl Compiler {
         geometry: &Geometry,
         layout: &PassLayout,
     ) -> Result<PassPipelines, Problem> {
-        let mut variants: Vec<DrawPipeline> = Vec::with_capacity(Variant::COUNT);
+        if geometry.pull_vertices {
+            self.pulls(files, pass)?;
+        }
+        let built = self.variants_of(files, desc, pass, geometry, layout)?;
+        Ok(PassPipelines::Geometry(built))
+    }
+
+    pub(super) fn variants_of(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        geometry: &Geometry,
+        layout: &PassLayout,
+    ) -> Result<GeometryPipelines, Problem> {
         let other_models = self.has_other_models(desc, pass);
+        let mut variants = Vec::with_capacity(Variant::COUNT);
         for variant in Variant::all() {
-            // The variant with the default model comes first in the table.
-            let plain = variants.get(variant.with_default_model().index());
-            if let Some(plain) = plain.filter(|_| variant.other_model() && !other_models) {
-                variants.push(plain.clone());
+            if !self.variants.contains(variant) {
+                variants.push(None);
                 continue;
             }
             // Without outputs and without holes there is nothing for a fragment stage to do.
@@ -33,10 +46,15 @@ impl Compiler {
             let fragment = pass
                 .shader
                 .as_ref()
-                .filter(|_| outputs || variant.alpha_test());
+                .filter(|_| outputs || variant.alpha_test() || geometry.pull_vertices);
             let depth_only = fragment.is_none();
             let state = State {
-                fragment_defines: variant.defines(),
+                // Shaders that do not tell models apart have one pipeline for all.
+                fragment_defines: if other_models {
+                    variant.defines()
+                } else {
+                    variant.with_default_model().defines()
+                },
                 vertex_defines: if depth_only { &["POSITION_ONLY"] } else { &[] },
                 cull: match geometry.faces {
                     Faces::Material if variant.two_sided() => None,
@@ -59,16 +77,43 @@ impl Compiler {
                 },
                 _ => state,
             };
-            variants.push(self.build(files, desc, pass, fragment, layout, &state)?);
+            let built = self.build(files, desc, pass, fragment, layout, &state)?;
+            variants.push(Some(built));
         }
         let mask = match geometry.repeat {
             Some(repeat) if repeat.stencil => Some(self.mask(files, desc, pass, layout)?),
             _ => None,
         };
-        Ok(PassPipelines::Geometry(GeometryPipelines {
+        Ok(GeometryPipelines {
             variants,
             mask,
-        }))
+            pull_vertices: geometry.pull_vertices,
+        })
+    }
+
+    /// The shader of a pass that draws without vertex buffers fetches its vertices.
+    fn pulls(&mut self, files: &Files, pass: &PassDesc) -> Result<(), Problem> {
+        let Some(shader) = &pass.shader else {
+            return Err(Problem::new(
+                pass.at.clone(),
+                format!("`{}` pulls its vertices, but has no shader", pass.name),
+            )
+            .with_hint("add .shader(\"shaders/name.wgsl\") with a vertex stage of its own"));
+        };
+        let reflection = &self
+            .load(files, &shader.path, &[], &shader.defines)?
+            .reflection;
+        if reflection.has_vertex && reflection.vertex_inputs.is_empty() {
+            return Ok(());
+        }
+        let message = format!(
+            "`{}` pulls its vertices, but `{}` has no vertex stage that fetches them",
+            pass.name, shader.path
+        );
+        Err(Problem::new(shader.at.clone(), message).with_hint(
+            "write `@vertex fn vertex_main(@builtin(vertex_index) …)` without @location inputs, and \
+             fetch from `mesh_indices` and `mesh_positions`",
+        ))
     }
 
     /// What marks the pixels whose surface lies inside a light's volume.

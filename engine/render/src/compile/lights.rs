@@ -3,10 +3,12 @@
 use lightbench_assets::files::Files;
 use wgpu::{CompareFunction, Face, StencilOperation};
 
-use super::state::{Channels, DrawPipeline, State, marking, stencil_mark, stencil_test};
+use super::state::{Channels, State, marking, stencil_mark, stencil_test, take_counted};
 use super::{Compiler, FULLSCREEN_VERTEX, LIGHT_VERTEX, PassLayout};
 use crate::description::{LightStencil, Lights, PassDesc, PipelineDesc, ShaderDesc};
-use crate::pipeline::{LightPipelines, LightsPipelines, PassPipelines};
+use crate::gpu_pipelines::{
+    DrawPipeline, LightPipelines, LightsPipelines, PassPipelines, StencilPipelines,
+};
 use crate::problem::Problem;
 
 /// The fragment stage of pipelines that only mark stencil.
@@ -30,11 +32,16 @@ impl Compiler {
             LightStencil::Off => None,
             scheme => {
                 let mark = self.marker(files, desc, pass, layout, &mark(scheme))?;
+                let count = self.marker(files, desc, pass, layout, &count())?;
                 let wipe = State {
                     stencil: stencil_mark(StencilOperation::Keep, StencilOperation::Replace),
                     ..marking(None, CompareFunction::Always, FULLSCREEN_VERTEX)
                 };
-                Some((mark, self.marker(files, desc, pass, layout, &wipe)?))
+                Some(StencilPipelines {
+                    mark,
+                    count,
+                    wipe: self.marker(files, desc, pass, layout, &wipe)?,
+                })
             }
         };
         Ok(PassPipelines::Lights(LightsPipelines { arrays, stencil }))
@@ -58,24 +65,26 @@ impl Compiler {
                 channel: array % 4,
             }
         };
-        let mut build = |cull, test, vertex_defines: &'static [&'static str], stencil| {
-            let state = State {
-                own_vertex: false,
-                vertex_defines,
-                cull,
-                depth_compare: if lights.any_depth {
-                    CompareFunction::Always
-                } else {
-                    test
-                },
-                channels,
-                stencil,
-                ..State::new(LIGHT_VERTEX, pass.depth.as_ref())
+        let mut build =
+            |cull, test, vertex_defines: &'static [&'static str], stencil, unclipped| {
+                let state = State {
+                    unclipped_depth: unclipped,
+                    own_vertex: false,
+                    vertex_defines,
+                    cull,
+                    depth_compare: if lights.any_depth {
+                        CompareFunction::Always
+                    } else {
+                        test
+                    },
+                    channels,
+                    stencil,
+                    ..State::new(LIGHT_VERTEX, pass.depth.as_ref())
+                };
+                self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)
             };
-            self.build(files, desc, pass, pass.shader.as_ref(), layout, &state)
-        };
         let declared = State::new(LIGHT_VERTEX, pass.depth.as_ref()).stencil;
-        let mut plain = |cull, test, defines| build(cull, test, defines, declared.clone());
+        let mut plain = |cull, test, defines| build(cull, test, defines, declared.clone(), false);
         use CompareFunction::{Always, Equal, GreaterEqual, LessEqual, NotEqual};
         // Depth is reversed, so "less" is farther. A back face lights what lies in front of it.
         let back = plain(Some(Face::Front), LessEqual, &[])?;
@@ -85,18 +94,24 @@ impl Compiler {
             LightStencil::Off => None,
             LightStencil::TwoPass => {
                 let test = stencil_test(Equal);
-                Some(build(Some(Face::Back), GreaterEqual, &[], test)?)
+                Some(build(Some(Face::Back), GreaterEqual, &[], test, false)?)
             }
             LightStencil::Inverse => {
                 let test = stencil_test(NotEqual);
-                Some(build(Some(Face::Front), LessEqual, &[], test)?)
+                Some(build(Some(Face::Front), LessEqual, &[], test, false)?)
             }
+        };
+        // Back faces cover every pixel of a mesh from wherever it is seen.
+        let counted = match lights.stencil {
+            LightStencil::Off => None,
+            _ => Some(build(Some(Face::Front), Always, &[], take_counted(), true)?),
         };
         Ok(LightPipelines {
             back,
             front,
             screen,
             marked,
+            counted,
         })
     }
 
@@ -115,6 +130,27 @@ impl Compiler {
             defines: Vec::new(),
         };
         self.build(files, desc, pass, Some(&shader), layout, state)
+    }
+}
+
+/// Counts faces that the scene hides: back faces up, front faces down. Depth is clamped, since the
+/// count is wrong where the far plane cuts faces away.
+fn count() -> State {
+    let hidden = |depth_fail_op| wgpu::StencilFaceState {
+        compare: CompareFunction::Always,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op,
+        pass_op: StencilOperation::Keep,
+    };
+    State {
+        stencil: wgpu::StencilState {
+            front: hidden(StencilOperation::DecrementWrap),
+            back: hidden(StencilOperation::IncrementWrap),
+            read_mask: 0xff,
+            write_mask: 0xff,
+        },
+        unclipped_depth: true,
+        ..marking(None, CompareFunction::GreaterEqual, LIGHT_VERTEX)
     }
 }
 

@@ -2,9 +2,10 @@
 
 use lightbench_assets::files::Files;
 
+use super::cache::PipelineKey;
 use super::{Compiler, FULLSCREEN_VERTEX};
 use crate::description::{Define, PassDesc, PipelineDesc, Reduction};
-use crate::pipeline::PassPipelines;
+use crate::gpu_pipelines::{DrawPipeline, PassPipelines};
 use crate::problem::Problem;
 use crate::reflection::{FRAGMENT_ENTRY, SampleKind, VERTEX_ENTRY};
 
@@ -60,6 +61,18 @@ impl Compiler {
                     count: None,
                 }],
             });
+        let key = PipelineKey {
+            vertex: vertex.shader.fingerprint,
+            fragment: Some(fragment.shader.fingerprint),
+            state: format!("mips {}", target.format),
+        };
+        if let Some(pipeline) = self.built.get(&key) {
+            return Ok(PassPipelines::Mips {
+                pipeline,
+                layout,
+                levels: Vec::new(),
+            });
+        }
         let pipeline_layout =
             self.gpu
                 .device
@@ -98,6 +111,8 @@ impl Compiler {
                     format!("the pass `{}` can't be built: {error}", pass.name),
                 )
             })?;
+        let pipeline = DrawPipeline::new(pipeline, false);
+        self.built.insert(key, &pipeline);
         Ok(PassPipelines::Mips {
             pipeline,
             layout,

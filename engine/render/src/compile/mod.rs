@@ -10,27 +10,28 @@ mod fullscreen;
 mod geometry;
 mod lights;
 mod mips;
+mod shadow;
 mod state;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use lightbench_assets::files::Files;
 
 use crate::binding::{bind, target_layout};
+use crate::compiled_pass::CompiledPass;
 use crate::description::{Define, PassDesc, PassKind, PipelineDesc};
 use crate::fallback::settle_formats;
 use crate::gpu::Gpu;
+use crate::gpu_pipelines::PassPipelines;
 use crate::layout::SceneLayout;
 use crate::parameters::ParameterBlock;
-use crate::pipeline::{CompiledPass, PassPipelines, Pipeline};
+use crate::pipeline::Pipeline;
 use crate::problem::{Problem, Problems};
 use crate::reflection::{Reflection, reflect};
-use crate::shader::{Shader, ShaderComposer};
+use crate::shader::{MODULES, Shader, ShaderComposer};
 use crate::validate::validate;
-use crate::variant::REFLECTION_MODELS;
+use crate::variant::{REFLECTION_MODELS, Variants};
 use cache::PipelineCache;
-
-pub use state::DrawPipeline;
 
 /// The vertex stages that passes use whose shader brings none.
 const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
@@ -42,8 +43,6 @@ struct LoadedShader {
     shader: Shader,
     reflection: Reflection,
     module: wgpu::ShaderModule,
-    /// Differs where the text of the shader, of a module or a define differs.
-    fingerprint: u64,
 }
 
 /// A pipeline layout, and what tells it from others.
@@ -63,6 +62,10 @@ pub struct Compiler {
     /// Pipelines that were built, so that a save rebuilds only the passes that it touches, and
     /// going back to a text seen before rebuilds nothing.
     built: PipelineCache,
+    /// The variants of meshes that the compilation at hand is for.
+    variants: Variants,
+    /// The shaders and modules that it has used.
+    used: BTreeSet<String>,
 }
 
 impl Compiler {
@@ -74,24 +77,42 @@ impl Compiler {
             composer: None,
             shaders: HashMap::new(),
             built: PipelineCache::default(),
+            variants: Variants::ALL,
+            used: BTreeSet::new(),
         }
     }
 
-    /// Forgets shaders that depend on a changed file: that shader, or all after a module changed.
+    /// Forgets shaders that depend on a changed file: that shader, or those that import the module.
     pub fn forget(&mut self, changed: &str) {
-        if changed.starts_with("shaders/lib/") {
+        if changed.starts_with(MODULES) {
             self.composer = None;
-            self.shaders.clear();
-        } else {
-            self.shaders.retain(|(path, ..), _| path != changed);
         }
+        self.shaders.retain(|(path, ..), loaded| {
+            path != changed && !loaded.shader.modules.iter().any(|module| module == changed)
+        });
     }
 
-    /// Builds a pipeline.
+    /// Builds a pipeline that can draw every mesh.
     ///
     /// # Errors
     /// All mistakes of the description; else the first mistake of each shader.
     pub fn compile(&mut self, files: &Files, desc: &PipelineDesc) -> Result<Pipeline, Problems> {
+        self.compile_for(files, desc, Variants::ALL)
+    }
+
+    /// Builds a pipeline for those variants of meshes that a scene has. Others can be added later:
+    /// what was built before is kept.
+    ///
+    /// # Errors
+    /// As [`Compiler::compile`].
+    pub fn compile_for(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        variants: Variants,
+    ) -> Result<Pipeline, Problems> {
+        self.variants = variants;
+        self.used.clear();
         let declared = desc;
         let mut desc = declared.clone();
         let notes = settle_formats(&mut desc, &self.gpu);
@@ -115,7 +136,16 @@ impl Compiler {
             }
         });
         if problems.is_empty() {
-            Ok(Pipeline::new(declared.clone(), desc.clone(), notes, passes))
+            let mut files = std::mem::take(&mut self.used);
+            files.extend(desc.scripts.iter().cloned());
+            Ok(Pipeline::new(
+                declared.clone(),
+                desc.clone(),
+                notes,
+                passes,
+                variants,
+                files,
+            ))
         } else {
             Err(Problems(problems))
         }
@@ -134,7 +164,10 @@ impl Compiler {
             let loaded = self.compose(files, path, variant, defines)?;
             self.shaders.insert(key.clone(), loaded);
         }
-        Ok(&self.shaders[&key])
+        let loaded = &self.shaders[&key];
+        self.used.insert(loaded.shader.path.clone());
+        self.used.extend(loaded.shader.modules.iter().cloned());
+        Ok(loaded)
     }
 
     fn compose(
@@ -158,7 +191,6 @@ impl Compiler {
             .collect();
         let shader = composer.compose(files, path, &defines)?;
         let reflection = reflect(&shader.module);
-        let fingerprint = composer.fingerprint(&shader.text, &defines);
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
         let module = self
             .gpu
@@ -180,7 +212,6 @@ impl Compiler {
             shader,
             reflection,
             module,
-            fingerprint,
         })
     }
 
@@ -214,8 +245,24 @@ impl Compiler {
             let loaded = self
                 .load(files, &shader.path, &[], &shader.defines)
                 .map_err(one)?;
-            sources = bind(desc, pass, &loaded.shader, &loaded.reflection)?;
-            parameters = loaded.reflection.parameters.clone();
+            let mut reflection = loaded.reflection.clone();
+            // Alpha-tested materials may ask for more.
+            if matches!(pass.kind, PassKind::Geometry(_)) {
+                let tested = self
+                    .load(files, &shader.path, &["ALPHA_TEST"], &shader.defines)
+                    .map_err(one)?;
+                reflection.add_bindings(&tested.reflection);
+            }
+            // So may surfaces with other reflection models.
+            if self.variants.has_other_models() && self.has_other_models(desc, pass) {
+                let others = self
+                    .load(files, &shader.path, &[REFLECTION_MODELS], &shader.defines)
+                    .map_err(one)?;
+                reflection.add_bindings(&others.reflection);
+            }
+            let loaded = &self.shaders[&(shader.path.clone(), Vec::new(), shader.defines.clone())];
+            sources = bind(desc, pass, &loaded.shader, &reflection)?;
+            parameters = reflection.parameters;
         }
 
         let target_layout = target_layout(&self.gpu, &sources, desc, pass);
@@ -248,7 +295,7 @@ impl Compiler {
             pass.kind,
             PassKind::Lights(_) | PassKind::Fullscreen | PassKind::Compute(_)
         );
-        if lights && self.has_other_models(desc, pass) {
+        if lights && self.variants.has_other_models() && self.has_other_models(desc, pass) {
             let mut pass = pass.clone();
             if let Some(shader) = &mut pass.shader {
                 shader.defines.push(Define::flag(REFLECTION_MODELS));
@@ -269,6 +316,7 @@ impl Compiler {
         match &pass.kind {
             PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, layout),
             PassKind::Lights(lights) => self.lights(files, desc, pass, lights, layout),
+            PassKind::Shadow(shadow) => self.shadow(files, desc, pass, shadow, layout),
             PassKind::Fullscreen => self.fullscreen(files, desc, pass, layout),
             PassKind::Compute(_) => self.compute(files, pass, layout),
             PassKind::Mips { target, reduction } => {
@@ -281,18 +329,19 @@ impl Compiler {
         }
     }
 
-    /// Whether the pass draws reflection models beside the default one, so that it needs variants
+    /// Whether the pass draws reflection models beside the default one, so that it needs GPU pipelines
     /// for them: the pipeline carries some, and the shader tells them apart.
     fn has_other_models(&self, desc: &PipelineDesc, pass: &PassDesc) -> bool {
-        let carried = desc.reflection_models().has_others();
-        let shader = pass.shader.as_ref().filter(|_| carried);
-        let loaded = shader.and_then(|shader| {
+        if !desc.reflection_models().has_others() {
+            return false;
+        }
+        let loaded = pass.shader.as_ref().and_then(|shader| {
             let key = (shader.path.clone(), Vec::new(), shader.defines.clone());
             self.shaders.get(&key)
         });
         let composer = self.composer.as_ref();
-        composer.zip(loaded).is_some_and(|(composer, loaded)| {
-            composer.mentions(&loaded.shader.text, REFLECTION_MODELS)
-        })
+        composer
+            .zip(loaded)
+            .is_some_and(|(composer, loaded)| composer.mentions(&loaded.shader, REFLECTION_MODELS))
     }
 }

@@ -6,15 +6,6 @@ use crate::description::{
 };
 use crate::reflection::Reflection;
 
-/// A render pipeline, and whether it reads the second vertex stream.
-#[derive(Clone, Debug)]
-pub struct DrawPipeline {
-    /// The pipeline.
-    pub pipeline: wgpu::RenderPipeline,
-    /// Whether normals, texture coordinates and tangents must be bound.
-    pub attributes: bool,
-}
-
 /// Which channels of the colour targets a pipeline writes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Channels {
@@ -89,6 +80,16 @@ pub(super) fn stencil_test(compare: wgpu::CompareFunction) -> wgpu::StencilState
         ..wgpu::StencilFaceState::IGNORE
     };
     both(face)
+}
+
+/// Passes where something was counted, and sets the count to zero.
+pub(super) fn take_counted() -> wgpu::StencilState {
+    both(wgpu::StencilFaceState {
+        compare: wgpu::CompareFunction::NotEqual,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: wgpu::StencilOperation::Keep,
+        pass_op: wgpu::StencilOperation::Zero,
+    })
 }
 
 /// Tests nothing, and changes the value where the depth test fails or passes.

@@ -9,6 +9,7 @@ mod blend;
 mod parameter;
 mod pass;
 mod resource;
+mod shadow;
 
 pub use attachment::{
     ColorAttachment, Compare, DepthAttachment, Load, Stencil, StencilClear, StencilOperation,
@@ -17,9 +18,10 @@ pub use blend::{Blend, BlendFactor, BlendOperation, BlendPart, ColorMask};
 pub use parameter::{Parameter, ParameterKind, ParameterValue};
 pub use pass::{
     Amount, Define, Dispatch, DrawList, DrawOrder, Faces, Geometry, LightStencil, Lights,
-    ObjectLights, PassDesc, PassKind, Read, Reduction, Repeat, ShaderDesc, Update,
+    MAX_LAYERS, ObjectLights, PassDesc, PassKind, Read, Reduction, Repeat, ShaderDesc, Update,
 };
 pub use resource::{BufferDesc, BufferSize, Mips, Shape, Slice, TargetDesc, TargetSize};
+pub use shadow::{GivenView, Lens, Shadow, ShadowLights, ShadowViews};
 
 use lightbench_assets::{ReflectionModel, ReflectionModels};
 
@@ -78,6 +80,8 @@ pub struct PipelineDesc {
     pub name: String,
     /// The file that declared it.
     pub file: Place,
+    /// Paths of that file and of all that it imports.
+    pub scripts: Vec<String>,
     /// Title for people, as in "Deferred shading".
     pub title: String,
     /// One or two sentences: what it trades and when to choose it.

@@ -1,6 +1,6 @@
 //! Passes: what they draw, with which shader, from what, into what.
 
-use super::{ColorAttachment, DepthAttachment, Slice};
+use super::{ColorAttachment, DepthAttachment, Shadow, Slice};
 use crate::problem::Place;
 
 /// A target or buffer that a pass's shader reads.
@@ -183,6 +183,9 @@ impl Faces {
     ];
 }
 
+/// The most layers that a geometry pass can spread its objects over.
+pub const MAX_LAYERS: usize = 16;
+
 /// What a geometry pass draws.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
@@ -196,6 +199,14 @@ pub struct Geometry {
     pub repeat: Option<Repeat>,
     /// Which faces.
     pub faces: Faces,
+    /// Draw without vertex and index buffers: the shader brings its own vertex stage, which gets as
+    /// `vertex_index` 0, 1, 2, … up to three for each triangle, and fetches the vertex from the
+    /// engine's buffers. So it knows which triangle a fragment belongs to.
+    pub pull_vertices: bool,
+    /// Spread the objects over that many layers, at most [`MAX_LAYERS`], such that those that
+    /// overlap on the screen are in different ones as far as there are enough. Shaders find an
+    /// object's layer, from 0, in `drawn_objects`. 0 chooses none.
+    pub layers: u32,
 }
 
 /// How a `lights` pass finds the pixels inside a volume.
@@ -236,6 +247,10 @@ pub struct Lights {
     pub threshold: f32,
     /// Spread the lights over that many arrays of lights that do not overlap; array n writes
     /// channel n mod 4 of colour target n / 4 alone. 0 draws all lights to all channels.
+    ///
+    /// Lights do not overlap whose ranges have no point in common: the shader leaves out surfaces
+    /// outside the light's range. With `any_depth` it is the rectangles around them on the screen
+    /// that have none.
     pub arrays: u32,
     /// Leave out ambient and directional lights.
     pub bounded_only: bool,
@@ -323,6 +338,8 @@ pub enum PassKind {
     Geometry(Geometry),
     /// Draws the volume of each light.
     Lights(Lights),
+    /// Draws the depth of what casts shadows, from the views of lights or others.
+    Shadow(Shadow),
     /// Draws one triangle over the whole target.
     Fullscreen,
     /// Runs a compute shader.
@@ -366,6 +383,7 @@ impl PassKind {
         match self {
             Self::Geometry(_) => "geometry",
             Self::Lights(_) => "lights",
+            Self::Shadow(_) => "shadow",
             Self::Fullscreen => "fullscreen",
             Self::Compute(_) => "compute",
             Self::Clear => "clear",
@@ -378,7 +396,10 @@ impl PassKind {
 
     /// Whether it draws through the rasteriser with a shader.
     pub fn rasterises(&self) -> bool {
-        matches!(self, Self::Geometry(_) | Self::Lights(_) | Self::Fullscreen)
+        matches!(
+            self,
+            Self::Geometry(_) | Self::Lights(_) | Self::Shadow(_) | Self::Fullscreen
+        )
     }
 }
 
@@ -418,6 +439,19 @@ impl PassDesc {
             colors: Vec::new(),
             depth: None,
             blend_constant: [0.0; 4],
+        }
+    }
+
+    /// For passes that spread lights over arrays, what [`unplaced_lights`] counts, for people.
+    ///
+    /// [`unplaced_lights`]: crate::PassStatistics::unplaced_lights
+    pub fn unplaced_in_words(&self) -> Option<String> {
+        match &self.kind {
+            PassKind::Lights(lights) if lights.arrays > 0 => Some(format!(
+                "Lights that no array of `{}` had room for",
+                self.name
+            )),
+            _ => None,
         }
     }
 }

@@ -3,21 +3,28 @@
 //! Flat arrays in the layout that the GPU reads, filled again each frame without allocation once
 //! they have their size. Passes see the frame and never the world.
 
+mod clip_volumes;
+mod layers;
 mod lights;
 mod object_lights;
 mod objects;
+mod shadows;
 
 use glam::{Mat4, Vec3};
 use lightbench_assets::{Assets, ReflectionModels};
 use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
-use lightbench_world::{MeshId, World, WorldBounds};
+use lightbench_world::{ClipVolume, Light, MeshId, World, WorldBounds};
 
 use crate::description::{DrawList, DrawOrder, Lights, ObjectLights, PassDesc, PassKind, Repeat};
-use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
-use crate::variant::Variant;
+use crate::gpu_data::{
+    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, ShadowViewData,
+};
+use crate::variant::{Variant, Variants};
 use crate::view::View;
-use crate::volumes::{self, VolumeDraw, VolumeKind};
+use crate::volumes::{self, Marking, VolumeDraw, VolumeKind};
 use objects::Objects;
+
+pub use shadows::{NO_VIEW, ShadowKey, ShadowList, ViewDraws};
 
 /// The view as the choice of light volumes needs it.
 #[derive(Clone, Debug)]
@@ -75,18 +82,32 @@ pub struct Frame {
     pub lists: Vec<ObjectList>,
     /// What `lights` passes draw, in the order of the request.
     pub light_lists: Vec<LightList>,
+    /// What `shadow` passes draw, in the order of the request.
+    pub shadow_lists: Vec<ShadowList>,
+    /// What shaders see as `frame` in each view of the `shadow` passes.
+    pub views: Vec<FrameData>,
+    /// The same views as shaders look them up.
+    pub shadow_views: Vec<ShadowViewData>,
+    /// Of each light the first of its views, or [`NO_VIEW`]; empty without `shadow` passes.
+    pub light_shadows: Vec<u32>,
     /// Objects that the camera sees.
     pub visible_objects: u32,
     /// Lights that the camera sees.
     pub visible_lights: u32,
+    /// The variants of all meshes in the lists.
+    pub variants: Variants,
     /// Rows of the objects that the camera sees.
     visible: Vec<u32>,
+    /// Rows of the objects that a shadow view sees.
+    seen: Vec<u32>,
     order: Vec<objects::Entry>,
     kinds: Vec<Chosen>,
     /// Where the lists of all lights and of ambient ones begin and how long they are, once made.
     shared_lights: [Option<(u32, u32)>; 2],
-    /// For each array of lights, the spheres of those in it.
-    arrays: Vec<Vec<(Vec3, f32)>>,
+    /// For each array of lights, what those in it take up.
+    arrays: Vec<Vec<lights::Place>>,
+    /// Objects and their rectangles, nearest first, while layers are chosen.
+    layered: Vec<layers::Layered>,
 }
 
 /// What a `geometry` pass draws.
@@ -110,6 +131,15 @@ pub struct Step {
     pub mark: Option<VolumeDraw>,
 }
 
+impl Step {
+    /// The share of the picture that it may draw to.
+    pub fn coverage(&self) -> f64 {
+        self.scissor.map_or(1.0, |[left, top, right, bottom]| {
+            f64::from((right - left).max(0.0)) * f64::from((bottom - top).max(0.0))
+        })
+    }
+}
+
 /// What a `lights` pass draws.
 #[derive(Clone, Debug, Default)]
 pub struct LightList {
@@ -119,13 +149,15 @@ pub struct LightList {
     pub coverage: f64,
     /// Lights for which no array had room.
     pub unplaced: u32,
+    /// Lights with a clip volume that shine beyond it here.
+    pub unconfined: u32,
 }
 
 /// A light and how it is drawn.
 #[derive(Clone, Copy, Debug)]
 struct Chosen {
     array: u32,
-    stencil: bool,
+    marking: Marking,
     kind: VolumeKind,
     data: LightVolumeData,
 }
@@ -141,6 +173,8 @@ pub struct ListKey {
     pub lights: ObjectLights,
     /// Once for each group of lights.
     pub repeat: Option<Repeat>,
+    /// Over how many layers; 0: none are chosen.
+    pub layers: u32,
 }
 
 impl ListKey {
@@ -152,6 +186,7 @@ impl ListKey {
                 order: geometry.order,
                 lights: geometry.lights,
                 repeat: geometry.repeat,
+                layers: geometry.layers,
             }),
             _ => None,
         }
@@ -177,10 +212,16 @@ pub struct FrameRequest<'a> {
     pub index: u32,
     /// The reflection models that the pipeline carries.
     pub models: ReflectionModels,
+    /// World to clip in the frame before; the present one where there was none.
+    pub previous: Option<Mat4>,
     /// The lists of objects that passes draw.
     pub lists: &'a [ListKey],
     /// The lists of lights that passes draw.
     pub light_lists: &'a [Lights],
+    /// The views that `shadow` passes draw.
+    pub shadow_lists: &'a [ShadowKey],
+    /// Whether the device can clamp depth instead of cutting faces off.
+    pub clamps_depth: bool,
 }
 
 impl Frame {
@@ -197,6 +238,7 @@ impl Frame {
         let volume = self.camera(request, lights.len());
         self.data.sky = sky(lights);
         self.drawn.clear();
+        self.variants = Variants::default();
         self.object_lights.clear();
         self.lists
             .resize_with(request.lists.len(), Default::default);
@@ -217,7 +259,18 @@ impl Frame {
         self.light_lists
             .resize_with(request.light_lists.len(), Default::default);
         for (index, key) in request.light_lists.iter().enumerate() {
-            self.light_volumes(index, key, lights, &volume);
+            self.light_volumes(index, key, &objects, request.clamps_depth);
+        }
+        self.views.clear();
+        self.shadow_views.clear();
+        self.light_shadows.clear();
+        if !request.shadow_lists.is_empty() {
+            self.light_shadows.resize(lights.len(), NO_VIEW);
+        }
+        self.shadow_lists
+            .resize_with(request.shadow_lists.len(), Default::default);
+        for (index, key) in request.shadow_lists.iter().enumerate() {
+            self.shadow_views(index, key, &objects);
         }
     }
 
@@ -249,11 +302,7 @@ impl Frame {
             padding: 0,
             sky: Vec3::ZERO,
             reserved: 0,
-            previous_view_projection: if request.index == 0 {
-                view_projection
-            } else {
-                self.data.view_projection
-            },
+            previous_view_projection: request.previous.unwrap_or(view_projection),
         };
         let (focal_x, focal_y) = (projection.x_axis.x, projection.y_axis.y);
         ViewVolume {
@@ -267,6 +316,21 @@ impl Frame {
             focal_x,
             focal_y,
         }
+    }
+
+    /// Lights with a clip volume that shine beyond it: those that a `lights` pass could not confine,
+    /// or all where no pass draws lights as volumes.
+    pub fn unconfined_lights(&self, world: &World) -> u32 {
+        let lists = self.light_lists.iter();
+        let most = lists.map(|list| list.unconfined).max();
+        most.unwrap_or_else(|| {
+            let volumes = world.columns::<ClipVolume>();
+            let lights = world.columns::<Light>();
+            let entities = volumes.entities().iter();
+            entities
+                .filter(|entity| lights.row_of(**entity).is_some())
+                .count() as u32
+        })
     }
 
     /// Finds the objects that the camera sees.

@@ -7,7 +7,7 @@ use super::objects::Objects;
 use super::{Frame, ObjectList, Step};
 use crate::description::{ObjectLights, Repeat};
 use crate::gpu_data::LightData;
-use crate::volumes::{self, AMBIENT, VolumeDraw};
+use crate::volumes::{self, AMBIENT, Marking, VolumeDraw};
 
 impl Frame {
     /// Where the list of an object's lights begins and how long it is, in the order of light
@@ -121,7 +121,7 @@ impl Frame {
             kind: found.kind,
             volumes: at..at + 1,
             array: 0,
-            stencil: true,
+            marking: Marking::Scheme,
         })
     }
 }

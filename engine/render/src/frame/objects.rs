@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use lightbench_assets::{Assets, Material, ReflectionModel, ReflectionModels};
-use lightbench_world::{MeshId, MeshRenderer, World, WorldBounds};
+use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
 
 use super::{Frame, ListKey, MeshDraw, Step, ViewVolume};
 use crate::description::{DrawList, DrawOrder};
@@ -27,12 +27,15 @@ pub(super) struct Entry {
     pub variant: Variant,
     pub mesh: MeshId,
     pub row: u32,
+    /// Chosen after the order.
+    pub layer: u32,
 }
 
 impl Frame {
     /// Fills one list.
     pub(super) fn objects(&mut self, index: usize, key: &ListKey, objects: &Objects<'_>) {
         self.sort(key, objects);
+        self.choose_layers(key.layers, objects);
         if key.list == DrawList::Opaque || key.list == DrawList::All {
             self.visible_objects = self.visible_objects.max(self.order.len() as u32);
         }
@@ -60,41 +63,55 @@ impl Frame {
 
     /// Chooses the objects of a list and sorts them.
     fn sort(&mut self, key: &ListKey, objects: &Objects<'_>) {
-        let renderers = objects.world.columns::<MeshRenderer>();
-        let r = renderers.slices();
         self.order.clear();
-        let mut take = |row: u32| {
-            let index = row as usize;
-            if !r.visible[index] {
-                return;
-            }
-            let traits = Traits::of(objects.assets.material(r.material[index]), objects.models);
-            let wanted = match key.list {
-                DrawList::Opaque | DrawList::Casters => !traits.transparent,
-                DrawList::Transparent => traits.transparent,
-                DrawList::All => true,
-            };
-            if wanted {
-                let mirrored = is_mirrored(&objects.instances[index]);
-                self.order.push(Entry {
-                    distance: distance(key.order, objects, index),
-                    variant: Variant::new(
-                        traits.two_sided,
-                        traits.alpha_test,
-                        mirrored,
-                        traits.other_model,
-                    ),
-                    mesh: r.mesh[index],
-                    row,
-                });
-            }
-        };
         if key.list == DrawList::Casters {
-            (0..renderers.len() as u32).for_each(&mut take);
+            let count = objects.world.columns::<MeshRenderer>().len() as u32;
+            (0..count).for_each(|row| self.take(key.list, key.order, row, objects));
         } else {
-            self.visible.iter().copied().for_each(&mut take);
+            let visible = std::mem::take(&mut self.visible);
+            for &row in &visible {
+                self.take(key.list, key.order, row, objects);
+            }
+            self.visible = visible;
         }
         self.order.sort_unstable();
+    }
+
+    /// Adds an object to the order if it belongs to a list.
+    pub(super) fn take(
+        &mut self,
+        list: DrawList,
+        order: DrawOrder,
+        row: u32,
+        objects: &Objects<'_>,
+    ) {
+        let renderers = objects.world.columns::<MeshRenderer>();
+        let r = renderers.slices();
+        let index = row as usize;
+        if !r.visible[index] {
+            return;
+        }
+        let traits = Traits::of(objects.assets.material(r.material[index]), objects.models);
+        let wanted = match list {
+            DrawList::Opaque | DrawList::Casters => !traits.transparent,
+            DrawList::Transparent => traits.transparent,
+            DrawList::All => true,
+        };
+        if wanted {
+            let mirrored = is_mirrored(&objects.instances[index]);
+            self.order.push(Entry {
+                distance: distance(order, objects, index),
+                variant: Variant::new(
+                    traits.two_sided,
+                    traits.alpha_test,
+                    mirrored,
+                    traits.other_model,
+                ),
+                mesh: r.mesh[index],
+                row,
+                layer: 0,
+            });
+        }
     }
 
     /// Adds an object to the last draw call, if it fits there and that is not before `first`, or to
@@ -107,11 +124,12 @@ impl Frame {
         lights: (u32, u32),
     ) {
         let at = self.drawn.len() as u32;
+        self.variants.insert(entry.variant);
         self.drawn.push(DrawnObject {
             instance: entry.row,
             first_light: lights.0,
             light_count: lights.1,
-            reserved: 0,
+            layer: entry.layer,
         });
         let open = draws.len() > first;
         match draws.last_mut() {
@@ -134,7 +152,7 @@ impl Frame {
 
 /// A number that grows in the order of drawing: with the distance of the bounds' centre along the
 /// view, or against it.
-fn distance(order: DrawOrder, objects: &Objects<'_>, row: usize) -> u32 {
+pub(super) fn distance(order: DrawOrder, objects: &Objects<'_>, row: usize) -> u32 {
     if order == DrawOrder::State {
         return 0;
     }
@@ -172,6 +190,11 @@ impl Traits {
             other_model: material.is_some_and(|m| drawn(m) != ReflectionModel::BlinnPhong),
         }
     }
+}
+
+/// Whether light passes through what has the material.
+pub(super) fn is_transparent(assets: &Assets, id: MaterialId) -> bool {
+    assets.material(id).is_some_and(Material::is_transparent)
 }
 
 /// Whether the world matrix turns the winding of triangles round.

@@ -2,28 +2,18 @@
 
 use super::raster::Work;
 use crate::description::Dispatch;
+use crate::gpu_pipelines::ComputePipeline;
 use crate::statistics::PassStatistics;
 
 impl Work<'_> {
     pub(super) fn compute(
         &self,
         dispatch: &Dispatch,
-        pipeline: &wgpu::ComputePipeline,
+        pipeline: &ComputePipeline,
         encoder: &mut wgpu::CommandEncoder,
         cost: &mut PassStatistics,
     ) {
-        let mut compute_pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some(&self.desc.name),
-            timestamp_writes: self.queries.compute_timestamps(self.index),
-        });
-        compute_pass.set_pipeline(pipeline);
-        compute_pass.set_bind_group(0, self.recording.scene, &[0]);
-        if let Some(group) = &self.pass.target_group {
-            compute_pass.set_bind_group(1, group, &[]);
-        }
-        if let Some(parameters) = &self.pass.parameters {
-            compute_pass.set_bind_group(2, &parameters.group, &[]);
-        }
+        let mut compute_pass = self.begin_compute(pipeline, encoder);
         match dispatch {
             Dispatch::Indirect { buffer, word } => {
                 if let Some(buffer) = self.targets.buffer(buffer) {
@@ -38,5 +28,26 @@ impl Work<'_> {
                 cost.workgroups = Some(u64::from(x) * u64::from(y) * u64::from(z));
             }
         }
+    }
+
+    /// Opens a compute pass with everything bound.
+    pub(super) fn begin_compute<'e>(
+        &self,
+        pipeline: &ComputePipeline,
+        encoder: &'e mut wgpu::CommandEncoder,
+    ) -> wgpu::ComputePass<'e> {
+        let mut compute_pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(&self.desc.name),
+            timestamp_writes: self.queries.compute_timestamps(self.index),
+        });
+        pipeline.set(&mut compute_pass);
+        compute_pass.set_bind_group(0, self.recording.scene, &[0]);
+        if let Some(group) = &self.pass.target_group {
+            compute_pass.set_bind_group(1, group, &[]);
+        }
+        if let Some(parameters) = &self.pass.parameters {
+            compute_pass.set_bind_group(2, &parameters.group, &[]);
+        }
+        compute_pass
     }
 }

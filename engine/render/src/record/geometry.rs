@@ -2,9 +2,8 @@
 
 use super::lights::MARKS;
 use super::raster::Work;
-use crate::compile::DrawPipeline;
 use crate::frame::{MeshDraw, Step};
-use crate::pipeline::{GeometryPipelines, MaskPipelines};
+use crate::gpu_pipelines::{GeometryPipelines, MaskPipelines};
 use crate::statistics::PassStatistics;
 use crate::volumes::{Case, VolumeDraw};
 
@@ -32,13 +31,13 @@ impl Work<'_> {
                 marked += 1;
             }
             let draws = &list.draws[step.draws.clone()];
-            self.draws(&pipelines.variants, draws, render_pass, cost);
+            self.draws(pipelines, draws, render_pass, cost);
         }
     }
 
-    fn draws(
+    pub(super) fn draws(
         &self,
-        variants: &[DrawPipeline],
+        pipelines: &GeometryPipelines,
         draws: &[MeshDraw],
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
@@ -46,17 +45,23 @@ impl Work<'_> {
         let meshes = self.recording.meshes;
         let mut bound = None;
         for run in draws {
-            let (Some(pipeline), Some(mesh)) =
-                (variants.get(run.variant.index()), meshes.range(run.mesh))
-            else {
+            let (Some(Some(pipeline)), Some(mesh)) = (
+                pipelines.variants.get(run.variant.index()),
+                meshes.range(run.mesh),
+            ) else {
                 continue;
             };
             if bound != Some(run.variant) {
-                render_pass.set_pipeline(&pipeline.pipeline);
+                pipeline.set(render_pass);
                 meshes.bind(render_pass, pipeline.attributes);
                 bound = Some(run.variant);
             }
-            render_pass.draw_indexed(mesh.indices.clone(), mesh.base_vertex, run.objects.clone());
+            if pipelines.pull_vertices {
+                render_pass.draw(0..mesh.indices.len() as u32, run.objects.clone());
+            } else {
+                let indices = mesh.indices.clone();
+                render_pass.draw_indexed(indices, mesh.base_vertex, run.objects.clone());
+            }
             cost.count(mesh.indices.len() / 3, &run.objects);
         }
     }

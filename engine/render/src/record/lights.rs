@@ -1,10 +1,9 @@
 //! Drawing light volumes.
 
 use super::raster::Work;
-use crate::compile::DrawPipeline;
-use crate::pipeline::LightsPipelines;
+use crate::gpu_pipelines::{DrawPipeline, LightsPipelines};
 use crate::statistics::PassStatistics;
-use crate::volumes::{Case, VolumeDraw};
+use crate::volumes::{Case, Marking, VolumeDraw};
 
 /// Marks that the eight bits of stencil tell apart; 0 is "not marked".
 pub(super) const MARKS: u32 = 255;
@@ -26,25 +25,30 @@ impl Work<'_> {
             let Some(array) = pipelines.arrays.get(run.array as usize) else {
                 continue;
             };
-            if let (true, Some(shade), Some((mark, wipe))) =
-                (run.stencil, &array.marked, &pipelines.stencil)
-            {
-                // Each light has a mark of its own; when all are used up, they are wiped away.
-                if marked > 0 && marked % MARKS == 0 {
-                    self.screen(wipe, 0, render_pass, cost);
+            let stencil = pipelines.stencil.as_ref();
+            match (run.marking, stencil, &array.marked, &array.counted) {
+                (Marking::Scheme, Some(stencil), Some(shade), _) => {
+                    // Each light has a mark of its own; when all are used up, they are wiped away.
+                    if marked > 0 && marked % MARKS == 0 {
+                        self.screen(&stencil.wipe, 0, render_pass, cost);
+                    }
+                    render_pass.set_stencil_reference(1 + marked % MARKS);
+                    marked += 1;
+                    self.volume(&stencil.mark, run, render_pass, cost);
+                    self.volume(shade, run, render_pass, cost);
                 }
-                render_pass.set_stencil_reference(1 + marked % MARKS);
-                marked += 1;
-                self.volume(mark, run, render_pass, cost);
-                self.volume(shade, run, render_pass, cost);
-                continue;
+                (Marking::Count, Some(stencil), _, Some(shade)) => {
+                    // Counts begin at zero, and shading leaves them so.
+                    if marked > 0 {
+                        self.screen(&stencil.wipe, 0, render_pass, cost);
+                        marked = 0;
+                    }
+                    render_pass.set_stencil_reference(0);
+                    self.volume(&stencil.count, run, render_pass, cost);
+                    self.volume(shade, run, render_pass, cost);
+                }
+                _ => self.volume(array.of(run.kind.case), run, render_pass, cost),
             }
-            let pipeline = match run.kind.case {
-                Case::Back => &array.back,
-                Case::Front => &array.front,
-                Case::Screen => &array.screen,
-            };
-            self.volume(pipeline, run, render_pass, cost);
         }
     }
 
@@ -56,14 +60,16 @@ impl Work<'_> {
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
     ) {
-        render_pass.set_pipeline(&pipeline.pipeline);
+        pipeline.set(render_pass);
         if run.kind.case == Case::Screen {
             render_pass.draw(0..3, run.volumes.clone());
             cost.count(1, &run.volumes);
             return;
         }
         let meshes = self.recording.meshes;
-        let shape = meshes.shape(run.kind.shape);
+        let Some(shape) = meshes.shape(run.kind.shape) else {
+            return;
+        };
         meshes.bind(render_pass, pipeline.attributes);
         render_pass.draw_indexed(
             shape.indices.clone(),
@@ -81,7 +87,7 @@ impl Work<'_> {
         render_pass: &mut wgpu::RenderPass<'_>,
         cost: &mut PassStatistics,
     ) {
-        render_pass.set_pipeline(&pipeline.pipeline);
+        pipeline.set(render_pass);
         render_pass.set_stencil_reference(reference);
         render_pass.draw(0..3, 0..1);
         cost.count(1, &(0..1));

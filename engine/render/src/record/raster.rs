@@ -1,8 +1,9 @@
 //! Passes that go through the rasteriser: attachments, bindings, and who draws.
 
 use super::{MAX_COLORS, Recording};
+use crate::compiled_pass::CompiledPass;
 use crate::description::{LightStencil, Load, PassDesc, PassKind, StencilClear};
-use crate::pipeline::{CompiledPass, PassPipelines};
+use crate::gpu_pipelines::PassPipelines;
 use crate::queries::Queries;
 use crate::statistics::PassStatistics;
 use crate::targets::Targets;
@@ -15,6 +16,16 @@ pub(super) struct Work<'a> {
     pub recording: &'a Recording<'a>,
     pub queries: &'a Queries,
     pub index: usize,
+    /// Nothing is drawn and nothing changes: see [`super::warm`].
+    pub clipped: bool,
+}
+
+/// An attachment keeps what it holds.
+pub(super) fn kept<V>() -> wgpu::Operations<V> {
+    wgpu::Operations {
+        load: wgpu::LoadOp::Load,
+        store: wgpu::StoreOp::Store,
+    }
 }
 
 impl Work<'_> {
@@ -29,16 +40,19 @@ impl Work<'_> {
             PassPipelines::Geometry(pipelines) => self.geometry(pipelines, render_pass, cost),
             PassPipelines::Lights(pipelines) => self.lights(pipelines, render_pass, cost),
             PassPipelines::Fullscreen(pipeline) => {
-                render_pass.set_pipeline(pipeline);
+                pipeline.set(render_pass);
                 render_pass.draw(0..3, 0..1);
                 cost.count(1, &(0..1));
             }
-            PassPipelines::Compute { .. } | PassPipelines::Mips { .. } | PassPipelines::None => {}
+            PassPipelines::Shadow(_)
+            | PassPipelines::Compute(_)
+            | PassPipelines::Mips { .. }
+            | PassPipelines::None => {}
         });
     }
 
     /// Opens a render pass with the pass's attachments, counted and timed, for `draw`.
-    fn begin(
+    pub(super) fn begin(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
@@ -53,10 +67,14 @@ impl Work<'_> {
             *slot = Some(wgpu::RenderPassColorAttachment {
                 view,
                 depth_slice: *depth_slice,
-                resolve_target: resolve.as_ref(),
-                ops: wgpu::Operations {
-                    load: load_color(color.load),
-                    store: store(color.store),
+                resolve_target: resolve.as_ref().filter(|_| !self.clipped),
+                ops: if self.clipped {
+                    kept()
+                } else {
+                    wgpu::Operations {
+                        load: load_color(color.load),
+                        store: store(color.store),
+                    }
                 },
             });
         }
@@ -70,6 +88,9 @@ impl Work<'_> {
         });
         self.queries.begin_statistics(self.index, &mut render_pass);
         self.bind(&mut render_pass);
+        if self.clipped {
+            render_pass.set_scissor_rect(0, 0, 0, 0);
+        }
         draw(&mut render_pass);
         self.queries.end_statistics(self.index, &mut render_pass);
     }
@@ -92,17 +113,20 @@ impl Work<'_> {
             Load::Keep => wgpu::LoadOp::Load,
             Load::Clear([depth, ..]) => wgpu::LoadOp::Clear(depth as f32),
         };
+        let (load, store) = if self.clipped {
+            (wgpu::LoadOp::Load, wgpu::StoreOp::Store)
+        } else {
+            (load, store(depth.store))
+        };
         let format = self.targets.get(&depth.target)?.texture.format();
         // No operations means read-only, which lets shaders sample the same depth.
         Some(wgpu::RenderPassDepthStencilAttachment {
             view: self.pass.attachments.depth.as_ref()?,
-            depth_ops: depth.write.then_some(wgpu::Operations {
-                load,
-                store: store(depth.store),
-            }),
+            depth_ops: depth.write.then_some(wgpu::Operations { load, store }),
             stencil_ops: self
                 .stencil_operations()
-                .filter(|_| format.has_stencil_aspect()),
+                .filter(|_| format.has_stencil_aspect())
+                .map(|operations| if self.clipped { kept() } else { operations }),
         })
     }
 
@@ -130,15 +154,20 @@ impl Work<'_> {
         })
     }
 
-    /// Sets the groups and the constants that all draws of the pass share.
-    fn bind(&self, render_pass: &mut wgpu::RenderPass<'_>) {
-        render_pass.set_bind_group(0, self.recording.scene, &[0]);
+    /// Sets the groups. `view` is the offset of the view that shaders see as `frame`.
+    pub(super) fn bind_groups(&self, view: u32, render_pass: &mut wgpu::RenderPass<'_>) {
+        render_pass.set_bind_group(0, self.recording.scene, &[view]);
         if let Some(group) = &self.pass.target_group {
             render_pass.set_bind_group(1, group, &[]);
         }
         if let Some(parameters) = &self.pass.parameters {
             render_pass.set_bind_group(2, &parameters.group, &[]);
         }
+    }
+
+    /// Sets the groups and the constants that all draws of the pass share.
+    fn bind(&self, render_pass: &mut wgpu::RenderPass<'_>) {
+        self.bind_groups(0, render_pass);
         let [r, g, b, a] = self.desc.blend_constant;
         render_pass.set_blend_constant(wgpu::Color { r, g, b, a });
         let stencil = self.desc.depth.as_ref().and_then(|d| d.stencil.as_ref());

@@ -1,7 +1,8 @@
 //! Passes that move and fill: clear, copy, resolve, mips.
 
-use super::raster::{Work, load_color};
+use super::raster::{Work, kept, load_color};
 use crate::description::{Load, Read, StencilClear};
+use crate::gpu_pipelines::DrawPipeline;
 use crate::statistics::PassStatistics;
 
 impl Work<'_> {
@@ -139,34 +140,52 @@ impl Work<'_> {
     /// Draws each mip level from the one above.
     pub(super) fn mips(
         &self,
-        pipeline: &wgpu::RenderPipeline,
+        pipeline: &DrawPipeline,
         levels: &[(wgpu::TextureView, wgpu::BindGroup)],
         encoder: &mut wgpu::CommandEncoder,
         cost: &mut PassStatistics,
     ) {
-        for (index, (view, group)) in levels.iter().enumerate() {
+        for (index, level) in levels.iter().enumerate() {
             let timestamps = self.queries.span(self.index, index, levels.len());
-            let mut render_pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(&self.desc.name),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
-                depth_stencil_attachment: None,
-                timestamp_writes: timestamps,
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            render_pass.set_pipeline(pipeline);
-            render_pass.set_bind_group(0, group, &[]);
-            render_pass.draw(0..3, 0..1);
+            self.level(pipeline, level, timestamps, encoder);
             cost.count(1, &(0..1));
         }
+    }
+
+    /// Draws one mip level from the one above.
+    pub(super) fn level(
+        &self,
+        pipeline: &DrawPipeline,
+        (view, group): &(wgpu::TextureView, wgpu::BindGroup),
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
+        let mut render_pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.desc.name),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: if self.clipped {
+                    kept()
+                } else {
+                    wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    }
+                },
+            })],
+            depth_stencil_attachment: None,
+            timestamp_writes: timestamps,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pipeline.set(&mut render_pass);
+        render_pass.set_bind_group(0, group, &[]);
+        if self.clipped {
+            render_pass.set_scissor_rect(0, 0, 0, 0);
+        }
+        render_pass.draw(0..3, 0..1);
     }
 
     fn empty_pass(

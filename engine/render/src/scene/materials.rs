@@ -50,10 +50,9 @@ impl fmt::Display for ReplacedModels {
 /// The table of materials on the GPU.
 pub(super) struct MaterialRows {
     pub rows: RowBuffer<MaterialData>,
-    /// What it was made of: the assets' revision, and the models that the pipeline carries.
-    made_of: Option<(u64, ReflectionModels)>,
-    /// Whether a material is drawn with a model beside the default one.
-    pub other_models: bool,
+    /// The models that it was made for; none if the assets have changed since.
+    made_for: Option<ReflectionModels>,
+    made: Vec<MaterialData>,
     /// What became of models that the pipeline does not carry.
     pub replaced: ReplacedModels,
 }
@@ -62,33 +61,31 @@ impl MaterialRows {
     pub fn new(rows: RowBuffer<MaterialData>) -> Self {
         Self {
             rows,
-            made_of: None,
-            other_models: false,
+            made_for: None,
+            made: Vec::new(),
             replaced: ReplacedModels::default(),
         }
     }
 
-    /// Fills the rows anew if the assets have changed, or the models that may be drawn. `slot` gives
-    /// a texture's place.
+    /// Makes the rows anew if they were forgotten, or if other models may be drawn; those that are
+    /// the same as before do not travel. `slot` gives a texture's place.
     pub fn sync(
         &mut self,
         assets: &Assets,
         carried: ReflectionModels,
         slot: impl Fn(TextureId) -> u32,
     ) {
-        let made_of = Some((assets.revision(), carried));
-        if self.made_of == made_of {
+        if self.made_for == Some(carried) {
             return;
         }
-        self.made_of = made_of;
-        self.other_models = false;
+        self.made_for = Some(carried);
+        self.made.clear();
         self.replaced = ReplacedModels::default();
         let slot = |texture: Option<TextureId>| texture.map_or(NO_TEXTURE, &slot);
-        self.rows.replace(assets.materials().iter().map(|entry| {
+        self.made.extend(assets.materials().iter().map(|entry| {
             let material = &entry.value;
             let reflection = material.reflection.nearest(carried);
             let (wanted, drawn) = (material.reflection.model(), reflection.model());
-            self.other_models |= drawn != ReflectionModel::BlinnPhong;
             if drawn != wanted {
                 self.replaced.counts[wanted as usize][drawn as usize] += 1;
             }
@@ -104,11 +101,12 @@ impl MaterialRows {
                 normal_texture: slot(material.normal_texture),
             }
         }));
+        self.rows.replace_if_changed(&self.made);
     }
 
-    /// Forgets what the rows were made of.
+    /// Forgets what the rows were made for, since the assets have changed.
     pub fn forget(&mut self) {
-        self.made_of = None;
+        self.made_for = None;
     }
 }
 

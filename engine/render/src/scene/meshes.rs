@@ -1,12 +1,17 @@
-//! All meshes in three buffers: positions, other attributes, indices.
+//! All meshes in four buffers, of which only new meshes travel.
 //!
-//! Passes that need depth alone read positions alone, at a quarter of the memory traffic.
+//! New meshes go behind those that are there. Meshes that nobody wants any more leave their place
+//! unused, until the buffers are full or for the most part unused: then the device itself copies
+//! what is still wanted to new buffers.
 
-use lightbench_assets::{Assets, Mesh};
+use std::collections::{HashMap, HashSet};
+
+use lightbench_assets::Assets;
 use lightbench_world::MeshId;
 
+use super::Uploads;
+use super::mesh_buffers::{Extent, MeshBuffers, MeshStorage, PackedMeshes, Span};
 use crate::gpu::Gpu;
-use crate::gpu_data::VertexAttributes;
 use crate::volumes;
 
 /// Where a mesh lies in the buffers.
@@ -18,122 +23,198 @@ pub struct MeshRange {
     pub base_vertex: i32,
 }
 
-/// The unit shapes of light volumes.
+impl From<Span> for MeshRange {
+    fn from(span: Span) -> Self {
+        let first = span.start.indices;
+        Self {
+            indices: first..first + span.length.indices,
+            base_vertex: span.start.vertices as i32,
+        }
+    }
+}
+
+/// The shapes of light volumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
     /// A sphere that encloses the unit sphere.
     Sphere,
     /// A cone with its apex at the origin, along −z, of length 1 and base radius 1.
     Cone,
+    /// A mesh of the scene.
+    Mesh(MeshId),
 }
 
 /// Meshes and shapes on the device.
 pub struct MeshPool {
     gpu: Gpu,
-    positions: wgpu::Buffer,
-    attributes: wgpu::Buffer,
-    indices: wgpu::Buffer,
+    storage: MeshStorage,
+    /// Where the unused rest of the buffers begins.
+    used: Extent,
+    /// What lies in the buffers, by the revision of the mesh, with what nobody wants any more.
+    spans: HashMap<u64, Span>,
+    shapes: [Span; 2],
+    /// In the order of the scene's meshes.
     ranges: Vec<MeshRange>,
-    shapes: [MeshRange; 2],
-    revisions: Option<Vec<u64>>,
-    /// How often the buffers were made.
-    buffers: u64,
+    shape_ranges: [MeshRange; 2],
+    revisions: Vec<u64>,
+    /// How often buffers or ranges changed.
+    changes: u64,
 }
-
-const VERTICES: wgpu::BufferUsages = wgpu::BufferUsages::VERTEX.union(wgpu::BufferUsages::STORAGE);
-const INDICES: wgpu::BufferUsages = wgpu::BufferUsages::INDEX.union(wgpu::BufferUsages::STORAGE);
 
 impl MeshPool {
     /// A pool that holds the shapes alone.
     pub fn new(gpu: &Gpu) -> Self {
-        let empty = |usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("no meshes"),
-                size: 4,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        Self {
-            gpu: gpu.clone(),
-            positions: empty(VERTICES),
-            attributes: empty(VERTICES),
-            indices: empty(INDICES),
-            buffers: 1,
-            ranges: Vec::new(),
-            shapes: Default::default(),
-            revisions: None,
-        }
-    }
-
-    /// Uploads all meshes if any of them changed.
-    ///
-    /// # Errors
-    /// When they are larger than the device's buffers.
-    pub fn sync(&mut self, assets: &Assets) -> Result<(), String> {
-        let revisions: Vec<u64> = assets.meshes().iter().map(|entry| entry.revision).collect();
-        if self.revisions.as_ref() == Some(&revisions) {
-            return Ok(());
-        }
-        let mut packed = Packed::default();
-        self.shapes = [
+        let mut packed = PackedMeshes::default();
+        let shapes = [
             packed.shape(&volumes::unit_sphere()),
             packed.shape(&volumes::unit_cone()),
         ];
-        self.ranges = assets
-            .meshes()
-            .iter()
-            .map(|entry| packed.mesh(&entry.value))
-            .collect();
-
-        let largest = self.gpu.device.limits().max_buffer_size;
-        let attribute_bytes = (packed.attributes.len() * size_of::<VertexAttributes>()) as u64;
-        if attribute_bytes > largest {
-            return Err(format!(
-                "the scene's {} vertices take {} MiB in one buffer; this device allows {} MiB. Use fewer or smaller meshes",
-                packed.attributes.len(),
-                attribute_bytes >> 20,
-                largest >> 20
-            ));
+        let storage = MeshStorage::new(gpu, packed.length());
+        storage.write(gpu, Extent::default(), &packed);
+        Self {
+            gpu: gpu.clone(),
+            storage,
+            used: packed.length(),
+            spans: HashMap::new(),
+            shapes,
+            ranges: Vec::new(),
+            shape_ranges: shapes.map(MeshRange::from),
+            revisions: Vec::new(),
+            changes: 1,
         }
-        use wgpu::util::DeviceExt as _;
-        let upload = |label, contents: &[u8], usage| {
-            self.gpu
-                .device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some(label),
-                    contents,
-                    usage,
-                })
-        };
-        self.positions = upload(
-            "positions",
-            bytemuck::cast_slice(&packed.positions),
-            VERTICES,
-        );
-        self.attributes = upload(
-            "attributes",
-            bytemuck::cast_slice(&packed.attributes),
-            VERTICES,
-        );
-        self.indices = upload("indices", bytemuck::cast_slice(&packed.indices), INDICES);
-        self.revisions = Some(revisions);
-        self.buffers += 1;
+    }
+
+    /// Uploads the meshes that are not on the device yet.
+    ///
+    /// # Errors
+    /// When they are larger than the device's buffers.
+    pub fn sync(&mut self, assets: &Assets, uploads: &mut Uploads) -> Result<(), String> {
+        let revisions = || assets.meshes().iter().map(|entry| entry.revision);
+        if revisions().eq(self.revisions.iter().copied()) {
+            return Ok(());
+        }
+        let mut packed = PackedMeshes::default();
+        let mut new: HashMap<u64, Span> = HashMap::new();
+        let mut old = Vec::new();
+        let mut seen = HashSet::new();
+        for entry in assets.meshes() {
+            let revision = entry.revision;
+            if !seen.insert(revision) {
+                continue;
+            }
+            if self.spans.contains_key(&revision) {
+                old.push(revision);
+            } else {
+                new.insert(revision, packed.mesh(&entry.value));
+            }
+        }
+        let stays = self
+            .shapes
+            .iter()
+            .chain(old.iter().map(|old| &self.spans[old]));
+        let stays = stays.fold(Extent::default(), |sum, span| sum.and(span.length));
+        let wanted = stays.and(packed.length());
+        let fits = self.storage.capacity.holds(self.used.and(packed.length()));
+        if !fits || self.is_too_large_for(wanted) {
+            self.move_to(self.capacity_for(wanted)?, &old);
+        }
+        uploads.meshes += new.len() as u64;
+        uploads.bytes += self.storage.write(&self.gpu, self.used, &packed);
+        for (revision, span) in new {
+            self.spans.insert(revision, span.behind(self.used));
+        }
+        self.used = self.used.and(packed.length());
+
+        self.ranges.clear();
+        let spans = &self.spans;
+        self.ranges.extend(revisions().map(|revision| {
+            spans
+                .get(&revision)
+                .map(|span| MeshRange::from(*span))
+                .unwrap_or_default()
+        }));
+        self.revisions.clear();
+        self.revisions.extend(revisions());
+        self.changes += 1;
         Ok(())
     }
 
-    /// Vertex positions, the rest of the vertices, and indices, for shaders that fetch vertices
-    /// themselves; and a number that differs where the buffers are others than before.
-    pub fn buffers(&self) -> ([&wgpu::Buffer; 3], u64) {
-        (
-            [&self.positions, &self.attributes, &self.indices],
-            self.buffers,
-        )
+    /// The size of new buffers for so much: with room for changes to come, unless these are the first
+    /// meshes, of which many never change.
+    fn capacity_for(&self, wanted: Extent) -> Result<Extent, String> {
+        let largest = self.gpu.device.limits().max_buffer_size;
+        let bytes = wanted.largest_bytes();
+        if bytes > largest {
+            return Err(format!(
+                "the scene's {} vertices and {} indices take {} MiB in one buffer; this device allows {} MiB. \
+                 Use fewer or smaller meshes",
+                wanted.vertices,
+                wanted.indices,
+                bytes >> 20,
+                largest >> 20
+            ));
+        }
+        let spare = wanted.with_spare();
+        let first = self.spans.is_empty();
+        Ok(match first || spare.largest_bytes() > self.bindable() {
+            true => wanted,
+            false => spare,
+        })
     }
 
-    /// Uploads again at the next [`MeshPool::sync`].
-    pub fn forget(&mut self) {
-        self.revisions = None;
+    /// Whether so much should have smaller buffers: most of these is unused, or no shader could bind
+    /// them although it could bind the others.
+    fn is_too_large_for(&self, wanted: Extent) -> bool {
+        let (bytes, now) = (
+            wanted.largest_bytes(),
+            self.storage.capacity.largest_bytes(),
+        );
+        bytes < now / 2 || bytes <= self.bindable() && self.bindable() < now
+    }
+
+    /// The bytes of one buffer that shaders which fetch vertices themselves can bind.
+    fn bindable(&self) -> u64 {
+        let limits = self.gpu.device.limits();
+        limits
+            .max_buffer_size
+            .min(limits.max_storage_buffer_binding_size)
+    }
+
+    /// Goes on with new buffers, to which the shapes and the meshes of these revisions are copied.
+    fn move_to(&mut self, capacity: Extent, revisions: &[u64]) {
+        let storage = MeshStorage::new(&self.gpu, capacity);
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut used = Extent::default();
+        let mut copy = |from: Span| {
+            let to = Span {
+                start: used,
+                length: from.length,
+            };
+            storage.copy(&mut encoder, to, &self.storage, from);
+            used = used.and(from.length);
+            to
+        };
+        self.shapes = self.shapes.map(&mut copy);
+        let spans = revisions.iter().map(|old| (*old, copy(self.spans[old])));
+        self.spans = spans.collect();
+        self.gpu.queue.submit([encoder.finish()]);
+        self.storage = storage;
+        self.used = used;
+        self.shape_ranges = self.shapes.map(MeshRange::from);
+    }
+
+    /// The buffers, for shaders that fetch vertices themselves.
+    pub fn buffers(&self) -> MeshBuffers<'_> {
+        self.storage.buffers()
+    }
+
+    /// A number that differs where the buffers, or the places of meshes in them, are others than
+    /// before.
+    pub fn revision(&self) -> u64 {
+        self.changes
     }
 
     /// Where a mesh lies; none for an id that no mesh has.
@@ -141,64 +222,27 @@ impl MeshPool {
         self.ranges.get(mesh.0 as usize)
     }
 
-    /// Where a shape lies.
-    pub fn shape(&self, shape: Shape) -> &MeshRange {
-        &self.shapes[shape as usize]
+    /// Where a shape lies; none for a mesh that is not there.
+    pub fn shape(&self, shape: Shape) -> Option<&MeshRange> {
+        match shape {
+            Shape::Sphere => Some(&self.shape_ranges[0]),
+            Shape::Cone => Some(&self.shape_ranges[1]),
+            Shape::Mesh(mesh) => self.range(mesh),
+        }
     }
 
     /// Binds the vertex streams and the indices.
     pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, attributes: bool) {
-        pass.set_vertex_buffer(0, self.positions.slice(..));
+        let buffers = self.buffers();
+        pass.set_vertex_buffer(0, buffers.positions.slice(..));
         if attributes {
-            pass.set_vertex_buffer(1, self.attributes.slice(..));
+            pass.set_vertex_buffer(1, buffers.attributes.slice(..));
         }
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.positions.size() + self.attributes.size() + self.indices.size()
-    }
-}
-
-/// Meshes one after the other.
-#[derive(Default)]
-struct Packed {
-    positions: Vec<[f32; 3]>,
-    attributes: Vec<VertexAttributes>,
-    indices: Vec<u32>,
-}
-
-impl Packed {
-    fn mesh(&mut self, mesh: &Mesh) -> MeshRange {
-        let range = self.range(&mesh.indices);
-        self.positions
-            .extend(mesh.positions.iter().map(|p| p.to_array()));
-        self.attributes
-            .extend((0..mesh.positions.len()).map(|i| VertexAttributes {
-                normal: mesh.normals[i].to_array(),
-                uv: mesh.uvs[i].to_array(),
-                tangent: mesh.tangents[i].to_array(),
-            }));
-        range
-    }
-
-    /// A shape has positions only; its attributes are padding that nothing reads.
-    fn shape(&mut self, (positions, indices): &(Vec<glam::Vec3>, Vec<u32>)) -> MeshRange {
-        let range = self.range(indices);
-        self.positions
-            .extend(positions.iter().map(|p| p.to_array()));
-        self.attributes
-            .resize(self.positions.len(), bytemuck::Zeroable::zeroed());
-        range
-    }
-
-    fn range(&mut self, indices: &[u32]) -> MeshRange {
-        let first = self.indices.len() as u32;
-        self.indices.extend_from_slice(indices);
-        MeshRange {
-            indices: first..self.indices.len() as u32,
-            base_vertex: self.positions.len() as i32,
-        }
+        self.storage.bytes()
     }
 }

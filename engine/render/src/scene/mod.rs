@@ -1,8 +1,11 @@
 //! The scene on the GPU: everything of group 0, uploaded only where it changed.
 
+mod buckets;
 mod buffer;
 mod materials;
+mod mesh_buffers;
 mod meshes;
+mod resample;
 mod rows;
 mod textures;
 
@@ -11,17 +14,31 @@ use lightbench_world::World;
 
 pub use buffer::RowBuffer;
 pub use materials::ReplacedModels;
+pub use mesh_buffers::MeshBuffers;
 pub use meshes::{MeshPool, MeshRange, Shape};
 pub use rows::light_data;
 
+use crate::engine_buffers::EngineBuffers;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
-use crate::gpu_data::{DrawnObject, FrameData, InstanceData, LightData, LightVolumeData};
+use crate::gpu_data::{
+    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, ShadowViewData,
+};
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
-use crate::pipeline::EngineBuffers;
 use materials::MaterialRows;
 use rows::SceneRows;
 use textures::TexturePool;
+
+/// What has travelled to the device since the beginning.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Uploads {
+    /// Meshes.
+    pub meshes: u64,
+    /// Textures, each with all its mip levels.
+    pub textures: u64,
+    /// Bytes of both.
+    pub bytes: u64,
+}
 
 /// The buffers and textures that every pass reads.
 pub struct Scene {
@@ -38,9 +55,16 @@ pub struct Scene {
     drawn: RowBuffer<DrawnObject>,
     object_lights: RowBuffer<u32>,
     volumes: RowBuffer<LightVolumeData>,
+    shadow_views: RowBuffer<ShadowViewData>,
+    light_shadows: RowBuffer<u32>,
+    /// How often the last two were replaced.
+    shadow_buffers: u64,
+    /// Frames for the uniform buffer, each at its offset.
+    views: Vec<u8>,
     sampler: wgpu::Sampler,
     group: Option<wgpu::BindGroup>,
     assets_revision: Option<u64>,
+    uploads: Uploads,
     warnings: Vec<String>,
 }
 
@@ -58,34 +82,33 @@ impl Scene {
             anisotropy_clamp: if gpu.summary.software { 1 } else { 8 },
             ..Default::default()
         });
-        let frame = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("frame"),
-            size: size_of::<FrameData>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
         Self {
             gpu: gpu.clone(),
             layout: layout.clone(),
             meshes: MeshPool::new(gpu),
             textures: TexturePool::new(gpu),
             rows: SceneRows::default(),
-            frame,
+            frame: frame_buffer(gpu, size_of::<FrameData>() as u64),
             materials: MaterialRows::new(RowBuffer::new(gpu, "materials")),
             instances: RowBuffer::new(gpu, "instances"),
             lights: RowBuffer::new(gpu, "lights"),
             drawn: RowBuffer::new(gpu, "drawn objects"),
             object_lights: RowBuffer::new(gpu, "object lights"),
             volumes: RowBuffer::new(gpu, "light volumes"),
+            shadow_views: RowBuffer::new(gpu, "shadow views"),
+            light_shadows: RowBuffer::new(gpu, "light shadows"),
+            shadow_buffers: 0,
+            views: Vec::new(),
             sampler,
             group: None,
             assets_revision: None,
+            uploads: Uploads::default(),
             warnings: Vec::new(),
         }
     }
 
-    /// Uploads meshes, textures and materials that changed; materials with the reflection models that
-    /// the pipeline carries, or the nearest to them. Warnings (a texture that had to be resampled) are
+    /// Uploads meshes, textures and materials that are not on the device yet; materials with the
+    /// reflection models that the pipeline carries, or the nearest to them. Warnings (a texture that had to be resampled) are
     /// kept for [`Scene::take_warnings`].
     ///
     /// # Errors
@@ -96,10 +119,12 @@ impl Scene {
         carried: ReflectionModels,
     ) -> Result<(), String> {
         if self.assets_revision != Some(assets.revision()) {
-            self.meshes.sync(assets)?;
-            if self.textures.sync(assets, &mut self.warnings) {
+            self.meshes.sync(assets, &mut self.uploads)?;
+            let (uploads, warnings) = (&mut self.uploads, &mut self.warnings);
+            if self.textures.sync(assets, uploads, warnings) {
                 self.group = None;
             }
+            self.materials.forget();
             self.assets_revision = Some(assets.revision());
         }
         let textures = &self.textures;
@@ -108,28 +133,23 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether a material is drawn with a reflection model beside the default one.
-    pub fn has_other_models(&self) -> bool {
-        self.materials.other_models
-    }
-
     /// How many materials are drawn with another reflection model than they ask for.
     pub fn replaced_models(&self) -> ReplacedModels {
         self.materials.replaced
     }
 
-    /// Forgets what was uploaded, for a scene that takes another's place.
+    /// Makes ready for a scene that takes another's place. What was uploaded stays as long as the
+    /// new scene uses it too.
     pub fn reset(&mut self) {
         self.assets_revision = None;
-        self.materials.forget();
-        self.meshes.forget();
-        self.textures.forget();
+        self.textures.warn_again();
         self.rows = SceneRows::default();
     }
 
     /// Copies the rows of instances and lights that changed since the last call.
     pub fn sync_world(&mut self, world: &World) {
-        self.rows.sync(world, &mut self.instances, &mut self.lights);
+        let (instances, lights) = (&mut self.instances, &mut self.lights);
+        self.rows.sync(world, &self.meshes, instances, lights);
     }
 
     /// The lights, in the order of their rows.
@@ -144,9 +164,7 @@ impl Scene {
 
     /// Uploads a frame and returns group 0.
     pub fn upload(&mut self, frame: &Frame) -> &wgpu::BindGroup {
-        self.gpu
-            .queue
-            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame.data));
+        self.upload_frames(frame);
         self.drawn.replace_if_changed(&frame.drawn);
         self.object_lights.replace_if_changed(&frame.object_lights);
         self.volumes.replace_if_changed(&frame.volumes);
@@ -175,6 +193,38 @@ impl Scene {
             ),
         };
         self.group.insert(group)
+    }
+
+    /// Bytes from one frame to the next in the uniform buffer.
+    pub fn view_bytes(&self) -> u32 {
+        let alignment = self.gpu.device.limits().min_uniform_buffer_offset_alignment;
+        (size_of::<FrameData>() as u32).next_multiple_of(alignment)
+    }
+
+    /// Uploads what the camera sees as `frame`, and after it each shadow view.
+    fn upload_frames(&mut self, frame: &Frame) {
+        let step = self.view_bytes() as usize;
+        self.views.clear();
+        for (index, data) in std::iter::once(&frame.data).chain(&frame.views).enumerate() {
+            self.views.resize(index * step, 0);
+            self.views.extend_from_slice(bytemuck::bytes_of(data));
+        }
+        if (self.frame.size() as usize) < self.views.len() {
+            let size = self.views.len().next_power_of_two();
+            self.frame = frame_buffer(&self.gpu, size as u64);
+            self.group = None;
+        }
+        self.gpu.queue.write_buffer(&self.frame, 0, &self.views);
+    }
+
+    /// Uploads the shadow views that shaders look up.
+    pub fn upload_views(&mut self, frame: &Frame) {
+        self.shadow_views.replace_if_changed(&frame.shadow_views);
+        self.light_shadows.replace_if_changed(&frame.light_shadows);
+        let views = self.shadow_views.flush(&self.gpu);
+        if self.light_shadows.flush(&self.gpu) || views {
+            self.shadow_buffers += 1;
+        }
     }
 
     fn buffers(&self) -> [&wgpu::Buffer; 7] {
@@ -229,12 +279,12 @@ impl Scene {
 
     /// The buffers that passes may bind beside group 0.
     pub fn engine_buffers(&self) -> EngineBuffers<'_> {
-        let ([mesh_positions, mesh_attributes, mesh_indices], revision) = self.meshes.buffers();
         EngineBuffers {
-            mesh_positions,
-            mesh_attributes,
-            mesh_indices,
-            revision,
+            meshes: self.meshes.buffers(),
+            shadow_views: self.shadow_views.buffer(),
+            light_shadows: self.light_shadows.buffer(),
+            // Each of the two numbers only grows.
+            revision: self.meshes.revision() + self.shadow_buffers,
         }
     }
 
@@ -246,6 +296,13 @@ impl Scene {
             + self.drawn.take_uploaded()
             + self.object_lights.take_uploaded()
             + self.volumes.take_uploaded()
+            + self.shadow_views.take_uploaded()
+            + self.light_shadows.take_uploaded()
+    }
+
+    /// What has travelled to the device since the beginning.
+    pub fn uploads(&self) -> Uploads {
+        self.uploads
     }
 
     /// Keeps a warning for [`Scene::take_warnings`].
@@ -262,4 +319,13 @@ impl Scene {
     pub fn asset_bytes(&self) -> u64 {
         self.meshes.bytes() + self.textures.bytes()
     }
+}
+
+fn frame_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("frame"),
+        size,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }

@@ -3,13 +3,15 @@
 use glam::Vec3;
 use lightbench_world::{Light, LightKind, MeshRenderer, Tick, World, WorldMatrix};
 
-use super::RowBuffer;
+use super::{MeshPool, RowBuffer};
 use crate::gpu_data::{InstanceData, LightData, matrix_rows};
 
 /// What the GPU's rows were last compared with.
 #[derive(Default)]
 pub struct SceneRows {
     seen: Option<Tick>,
+    /// The revision of the meshes that instances point into.
+    meshes: u64,
 }
 
 impl SceneRows {
@@ -17,24 +19,27 @@ impl SceneRows {
     pub fn sync(
         &mut self,
         world: &World,
+        meshes: &MeshPool,
         instances: &mut RowBuffer<InstanceData>,
         lights: &mut RowBuffer<LightData>,
     ) {
         let since = self.seen.unwrap_or(Tick::START);
-        let all = self.seen.is_none();
+        // Meshes that were uploaded again may lie elsewhere.
+        let all = self.seen.is_none() || self.meshes != meshes.revision();
         self.seen = Some(world.observe());
+        self.meshes = meshes.revision();
 
         let renderers = world.columns::<MeshRenderer>();
         let light_columns = world.columns::<Light>();
         instances.resize(renderers.len());
         lights.resize(light_columns.len());
         if all {
-            (0..renderers.len()).for_each(|row| instances.set(row, instance(world, row)));
+            (0..renderers.len()).for_each(|row| instances.set(row, instance(world, meshes, row)));
             (0..light_columns.len()).for_each(|row| lights.set(row, light(world, row)));
             return;
         }
         for row in renderers.changed_since(since) {
-            instances.set(row, instance(world, row));
+            instances.set(row, instance(world, meshes, row));
         }
         for row in light_columns.changed_since(since) {
             lights.set(row, light(world, row));
@@ -43,7 +48,7 @@ impl SceneRows {
         for row in matrices.changed_since(since) {
             let entity = matrices.entities()[row];
             if let Some(row) = renderers.row_of(entity) {
-                instances.set(row, instance(world, row));
+                instances.set(row, instance(world, meshes, row));
             }
             if let Some(row) = light_columns.row_of(entity) {
                 lights.set(row, light(world, row));
@@ -52,16 +57,21 @@ impl SceneRows {
     }
 }
 
-fn instance(world: &World, row: usize) -> InstanceData {
+fn instance(world: &World, meshes: &MeshPool, row: usize) -> InstanceData {
     let renderers = world.columns::<MeshRenderer>();
+    let renderer = renderers.row(row);
     let matrix = world
         .get::<WorldMatrix>(renderers.entities()[row])
         .unwrap_or_default()
         .matrix;
+    // An object without a mesh is never drawn.
+    let mesh = meshes.range(renderer.mesh).cloned().unwrap_or_default();
     InstanceData {
         world_rows: matrix_rows(&matrix),
-        material: renderers.row(row).material.0,
-        reserved: [0; 3],
+        material: renderer.material.0,
+        first_index: mesh.indices.start,
+        base_vertex: mesh.base_vertex.unsigned_abs(),
+        reserved: 0,
     }
 }
 

@@ -1,42 +1,61 @@
-//! Material textures in 2D arrays, bucketed by size and format.
+//! Material textures in 2D arrays, of which only new textures travel.
 //!
 //! Not every adapter can index an array of textures, so textures of one size and format are the
-//! layers of one texture array, and a material holds the number of the array and the layer.
+//! layers of one texture array, a bucket, and a material holds the number of the bucket and the
+//! layer. A texture keeps its layer as long as a scene wants it; when it comes again after that, and
+//! no other has taken the layer, it is still there.
 
-use lightbench_assets::{Assets, Texture, TextureFormat, TextureId};
+use std::collections::{HashMap, HashSet};
 
+use lightbench_assets::{Assets, Shared, Texture, TextureFormat, TextureId};
+
+use super::Uploads;
+use super::buckets::{BucketKey, choose};
+use super::resample::resample;
 use crate::gpu::Gpu;
-use crate::gpu_data::TEXTURE_BUCKETS;
+use crate::gpu_data::{NO_TEXTURE, TEXTURE_BUCKETS};
 
-/// What the textures of a bucket have in common.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct BucketKey {
-    width: u32,
-    height: u32,
-    format: TextureFormat,
+/// A texture array, and the revision of the texture in each layer.
+struct Bucket {
+    key: BucketKey,
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+    layers: Vec<Option<u64>>,
 }
 
 /// All textures on the device.
 pub struct TexturePool {
     gpu: Gpu,
+    buckets: Vec<Bucket>,
+    /// One white texel, for buckets that are not used: every binding needs a texture.
+    blank: wgpu::TextureView,
+    /// The view of every bucket.
     views: Vec<wgpu::TextureView>,
     slots: Vec<u32>,
     revisions: Option<Vec<u64>>,
-    bytes: u64,
+    /// Textures of which this scene has been told that they do not fit.
+    warned: HashSet<u64>,
 }
 
 impl TexturePool {
     /// A pool without textures: every bucket holds one white texel.
     pub fn new(gpu: &Gpu) -> Self {
-        let mut pool = Self {
+        let key = BucketKey {
+            width: 1,
+            height: 1,
+            format: TextureFormat::Rgba8Linear,
+        };
+        let blank = Bucket::new(gpu, key, 1);
+        blank.write(gpu, 0, 0, (1, 1), &[255; 4]);
+        Self {
             gpu: gpu.clone(),
-            views: Vec::new(),
+            buckets: Vec::new(),
+            views: vec![blank.view.clone(); TEXTURE_BUCKETS],
+            blank: blank.view,
             slots: Vec::new(),
             revisions: None,
-            bytes: 0,
-        };
-        pool.fill_up();
-        pool
+            warned: HashSet::new(),
+        }
     }
 
     /// The view of every bucket.
@@ -51,84 +70,120 @@ impl TexturePool {
             .get(id.0 as usize)
             .or(self.slots.first())
             .copied()
-            .unwrap_or(crate::gpu_data::NO_TEXTURE)
+            .unwrap_or(NO_TEXTURE)
     }
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.bytes
+        let bytes = |bucket: &Bucket| bucket.key.layer_bytes() * bucket.layers.len() as u64;
+        self.buckets.iter().map(bytes).sum()
     }
 
-    /// Uploads again at the next [`TexturePool::sync`].
-    pub fn forget(&mut self) {
+    /// Another scene comes: at the next [`TexturePool::sync`] it is told what does not fit, whether
+    /// or not that is on the device already.
+    pub fn warn_again(&mut self) {
         self.revisions = None;
+        self.warned.clear();
     }
 
-    /// Uploads all textures if any changed. Returns whether the views are new.
-    pub fn sync(&mut self, assets: &Assets, warnings: &mut Vec<String>) -> bool {
-        let revisions: Vec<u64> = assets
-            .textures()
-            .iter()
-            .map(|entry| entry.revision)
-            .collect();
-        if self.revisions.as_ref() == Some(&revisions) {
+    /// Uploads the textures that are not on the device yet. Returns whether views are new.
+    ///
+    /// Buckets are chosen from this scene's textures alone, so that nothing depends on the scenes
+    /// before.
+    pub fn sync(
+        &mut self,
+        assets: &Assets,
+        uploads: &mut Uploads,
+        warnings: &mut Vec<String>,
+    ) -> bool {
+        let revisions = || assets.textures().iter().map(|entry| entry.revision);
+        let known = self.revisions.as_ref();
+        if known.is_some_and(|known| revisions().eq(known.iter().copied())) {
             return false;
         }
-        let textures: Vec<&Texture> = assets
+        let mut seen = HashSet::new();
+        let distinct: Vec<&Shared<Texture>> = assets
             .textures()
             .iter()
-            .map(|entry| &*entry.value)
+            .filter(|entry| seen.insert(entry.revision))
             .collect();
-        let layers = self.gpu.device.limits().max_texture_array_layers as usize;
-        let (buckets, places) = bucket(&textures, layers);
-        self.views.clear();
-        self.bytes = 0;
-        for (number, key) in buckets.iter().enumerate() {
-            let members: Vec<&Texture> = textures
+        let textures: Vec<&Texture> = distinct.iter().map(|entry| &*entry.value).collect();
+        let most_layers = self.gpu.device.limits().max_texture_array_layers as usize;
+        let (keys, places) = choose(&textures, most_layers);
+
+        let mut before = std::mem::take(&mut self.buckets);
+        let mut slots: HashMap<u64, u32> = HashMap::new();
+        for (number, key) in keys.into_iter().enumerate() {
+            let members: Vec<&Shared<Texture>> = distinct
                 .iter()
                 .zip(&places)
-                .filter(|(_, (bucket, _))| *bucket == number)
-                .map(|(texture, _)| *texture)
+                .filter_map(|(entry, place)| (*place == Some(number)).then_some(*entry))
                 .collect();
-            self.upload(*key, &members, warnings);
+            let mut bucket = Bucket::with_room(&self.gpu, key, &members, most_layers, &mut before);
+            bucket.fill(&self.gpu, &members, uploads);
+            let layers = bucket.layers.iter().enumerate();
+            slots.extend(layers.filter_map(|(layer, revision)| {
+                let slot = (number as u32) << 16 | layer as u32;
+                revision.map(|revision| (revision, slot))
+            }));
+            self.buckets.push(bucket);
         }
-        self.slots = places
-            .iter()
-            .map(|(bucket, layer)| (*bucket as u32) << 16 | *layer as u32)
-            .collect();
-        self.fill_up();
-        self.revisions = Some(revisions);
-        true
+        for (entry, place) in distinct.iter().zip(&places) {
+            self.warn(entry, *place, warnings);
+        }
+        let placeholder = distinct
+            .first()
+            .and_then(|first| slots.get(&first.revision));
+        let placeholder = placeholder.copied().unwrap_or(NO_TEXTURE);
+        let slot = |revision| slots.get(&revision).copied().unwrap_or(placeholder);
+        self.slots = revisions().map(slot).collect();
+        self.revisions = Some(revisions().collect());
+
+        let mut views: Vec<wgpu::TextureView> =
+            self.buckets.iter().map(|b| b.view.clone()).collect();
+        views.resize(TEXTURE_BUCKETS, self.blank.clone());
+        let new = views != self.views;
+        self.views = views;
+        new
     }
 
-    /// Gives the unused buckets a texel, since every binding needs a texture.
-    fn fill_up(&mut self) {
-        while self.views.len() < TEXTURE_BUCKETS {
-            let key = BucketKey {
-                width: 1,
-                height: 1,
-                format: TextureFormat::Rgba8Linear,
-            };
-            let (texture, view) = self.create(key, 1, 1);
-            self.write(&texture, 0, 0, (1, 1), 4, &[255; 4]);
-            self.views.push(view);
+    /// Tells once in each scene of a texture that is not drawn as it is.
+    fn warn(&mut self, entry: &Shared<Texture>, place: Option<usize>, warnings: &mut Vec<String>) {
+        let texture = &entry.value;
+        let (name, width, height) = (&texture.name, texture.width, texture.height);
+        let warning = match place {
+            Some(number) => {
+                let key = self.buckets[number].key;
+                if (key.width, key.height) == (width, height) {
+                    return;
+                }
+                format!(
+                    "the texture `{name}` is drawn at {} × {} instead of {width} × {height}: a scene has room \
+                     for {TEXTURE_BUCKETS} different sizes and formats; make its textures alike",
+                    key.width, key.height
+                )
+            }
+            None => format!(
+                "the texture `{name}` is drawn as a checker: the device has no room for so many \
+                 textures; use fewer"
+            ),
+        };
+        if self.warned.insert(entry.revision) {
+            warnings.push(warning);
         }
     }
+}
 
-    fn create(
-        &mut self,
-        key: BucketKey,
-        layers: u32,
-        mips: u32,
-    ) -> (wgpu::Texture, wgpu::TextureView) {
-        let texture = self.gpu.device.create_texture(&wgpu::TextureDescriptor {
+impl Bucket {
+    fn new(gpu: &Gpu, key: BucketKey, layers: usize) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("material textures"),
             size: wgpu::Extent3d {
                 width: key.width,
                 height: key.height,
-                depth_or_array_layers: layers,
+                depth_or_array_layers: layers as u32,
             },
-            mip_level_count: mips,
+            mip_level_count: key.mips(),
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: match key.format {
@@ -136,203 +191,138 @@ impl TexturePool {
                 TextureFormat::Rgba8Linear => wgpu::TextureFormat::Rgba8Unorm,
                 TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
             },
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_DST
+                | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
         let view = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        (texture, view)
-    }
-
-    fn upload(&mut self, key: BucketKey, members: &[&Texture], warnings: &mut Vec<String>) {
-        let mips = 32 - key.width.max(key.height).leading_zeros();
-        let (texture, view) = self.create(key, members.len().max(1) as u32, mips);
-        let pixel = key.format.bytes_per_pixel() as u32;
-        for (layer, member) in members.iter().enumerate() {
-            let fitted;
-            let source = if (member.width, member.height) == (key.width, key.height) {
-                *member
-            } else {
-                warnings.push(format!(
-                    "the texture `{}` is drawn at {} × {} instead of {} × {}: a scene has room for {} different \
-                     sizes and formats; make its textures alike",
-                    member.name, key.width, key.height, member.width, member.height, TEXTURE_BUCKETS
-                ));
-                fitted = resample(member, key.width, key.height);
-                fitted.as_ref().unwrap_or(member)
-            };
-            for (level, bytes) in source.mips.iter().enumerate().take(mips as usize) {
-                let size = source.level_size(level);
-                self.write(&texture, layer as u32, level as u32, size, pixel, bytes);
-                self.bytes += bytes.len() as u64;
-            }
+        Self {
+            key,
+            texture,
+            view,
+            layers: vec![None; layers],
         }
-        self.views.push(view);
     }
 
-    fn write(
-        &self,
-        texture: &wgpu::Texture,
-        layer: u32,
-        level: u32,
-        size: (u32, u32),
-        pixel: u32,
-        bytes: &[u8],
-    ) {
-        self.gpu.queue.write_texture(
-            wgpu::TexelCopyTextureInfo {
-                texture,
-                mip_level: level,
-                origin: wgpu::Origin3d {
-                    x: 0,
-                    y: 0,
-                    z: layer,
-                },
-                aspect: wgpu::TextureAspect::All,
-            },
+    /// A bucket that has room for its members: the one of before that holds most of them, if its size
+    /// is right, or else a new one to which the device copies what the one of before holds.
+    fn with_room(
+        gpu: &Gpu,
+        key: BucketKey,
+        members: &[&Shared<Texture>],
+        most_layers: usize,
+        before: &mut Vec<Self>,
+    ) -> Self {
+        let wanted: HashSet<u64> = members.iter().map(|entry| entry.revision).collect();
+        let kept = |bucket: &Self| {
+            let layers = bucket.layers.iter().flatten();
+            layers.filter(|revision| wanted.contains(revision)).count()
+        };
+        let alike = before.iter().enumerate().filter(|(_, b)| b.key == key);
+        let Some((best, _)) = alike.max_by_key(|(_, bucket)| kept(bucket)) else {
+            return Self::new(gpu, key, members.len());
+        };
+        let old = before.swap_remove(best);
+        let (room, need) = (old.layers.len(), members.len());
+        if need <= room && room <= need.saturating_mul(2) {
+            return old;
+        }
+        // Who adds one texture will add another.
+        let new = Self::new(
+            gpu,
+            key,
+            (need + need / 4).clamp(need, most_layers.max(need)),
+        );
+        new.take_over(gpu, &old, &wanted)
+    }
+
+    /// Copies layers from another bucket of the same size and format.
+    fn take_over(mut self, gpu: &Gpu, other: &Self, wanted: &HashSet<u64>) -> Self {
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let kept = other.layers.iter().enumerate();
+        let kept = kept.filter_map(|(from, revision)| Some((from, (*revision)?)));
+        let kept = kept.filter(|(_, revision)| wanted.contains(revision));
+        for (to, (from, revision)) in kept.enumerate() {
+            for level in 0..self.key.mips() {
+                encoder.copy_texture_to_texture(
+                    place(&other.texture, from, level),
+                    place(&self.texture, to, level),
+                    extent(self.key.width >> level, self.key.height >> level),
+                );
+            }
+            self.layers[to] = Some(revision);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        self
+    }
+
+    /// Uploads the members that are not there to layers that no member has.
+    fn fill(&mut self, gpu: &Gpu, members: &[&Shared<Texture>], uploads: &mut Uploads) {
+        let wanted: HashSet<u64> = members.iter().map(|entry| entry.revision).collect();
+        let there: HashSet<u64> = self.layers.iter().flatten().copied().collect();
+        let is_free = |layer: &usize| self.layers[*layer].is_none_or(|old| !wanted.contains(&old));
+        let mut free: Vec<usize> = (0..self.layers.len()).filter(is_free).collect();
+        // The empty ones first: what was there before may come again.
+        free.sort_by_key(|layer| self.layers[*layer].is_some());
+        let new = members
+            .iter()
+            .filter(|entry| !there.contains(&entry.revision));
+        for (entry, layer) in new.zip(free) {
+            let texture: &Texture = &entry.value;
+            let (width, height) = (self.key.width, self.key.height);
+            let fitted = match (texture.width, texture.height) == (width, height) {
+                true => None,
+                false => resample(texture, width, height),
+            };
+            let source = fitted.as_ref().unwrap_or(texture);
+            for (level, bytes) in source.mips.iter().enumerate() {
+                self.write(gpu, layer, level as u32, source.level_size(level), bytes);
+                uploads.bytes += bytes.len() as u64;
+            }
+            uploads.textures += 1;
+            self.layers[layer] = Some(entry.revision);
+        }
+    }
+
+    fn write(&self, gpu: &Gpu, layer: usize, level: u32, size: (u32, u32), bytes: &[u8]) {
+        let pixel = self.key.format.bytes_per_pixel() as u32;
+        gpu.queue.write_texture(
+            place(&self.texture, layer, level),
             bytes,
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(size.0 * pixel),
                 rows_per_image: None,
             },
-            wgpu::Extent3d {
-                width: size.0,
-                height: size.1,
-                depth_or_array_layers: 1,
-            },
+            extent(size.0, size.1),
         );
     }
 }
 
-/// Chooses the buckets and gives each texture a bucket and a layer.
-///
-/// The first sizes and formats that turn up get a bucket each. When those are used up, a texture
-/// goes to the bucket of its own format with the nearest size; the last buckets are kept for
-/// formats that have none yet, so that every format finds one.
-fn bucket(textures: &[&Texture], max_layers: usize) -> (Vec<BucketKey>, Vec<(usize, usize)>) {
-    let mut buckets: Vec<(BucketKey, usize)> = Vec::new();
-    let mut places = Vec::with_capacity(textures.len());
-    for texture in textures {
-        let key = BucketKey {
-            width: texture.width,
-            height: texture.height,
-            format: texture.format,
-        };
-        let exact = buckets
-            .iter()
-            .position(|(other, used)| *other == key && *used < max_layers);
-        let chosen = exact.unwrap_or_else(|| {
-            let has = |format| buckets.iter().any(|(other, _)| other.format == format);
-            let formats = [
-                TextureFormat::Rgba8Srgb,
-                TextureFormat::Rgba8Linear,
-                TextureFormat::Rgba16Float,
-            ];
-            let reserved = formats
-                .into_iter()
-                .filter(|&f| f != key.format && !has(f))
-                .count();
-            if buckets.len() + reserved < TEXTURE_BUCKETS {
-                buckets.push((key, 0));
-                return buckets.len() - 1;
-            }
-            let area = |k: &BucketKey| f64::from(k.width) * f64::from(k.height);
-            let distance = |k: &BucketKey| (area(k) / area(&key)).ln().abs();
-            let same = buckets
-                .iter()
-                .enumerate()
-                .filter(|(_, (k, used))| k.format == key.format && *used < max_layers);
-            same.min_by(|(_, (a, _)), (_, (b, _))| distance(a).total_cmp(&distance(b)))
-                .map_or(0, |(i, _)| i)
-        });
-        places.push((chosen, buckets[chosen].1));
-        buckets[chosen].1 += 1;
+fn place(texture: &wgpu::Texture, layer: usize, level: u32) -> wgpu::TexelCopyTextureInfo<'_> {
+    wgpu::TexelCopyTextureInfo {
+        texture,
+        mip_level: level,
+        origin: wgpu::Origin3d {
+            x: 0,
+            y: 0,
+            z: layer as u32,
+        },
+        aspect: wgpu::TextureAspect::All,
     }
-    (buckets.into_iter().map(|(key, _)| key).collect(), places)
 }
 
-/// A texture at another size: bilinear, from the level whose size is just above.
-fn resample(texture: &Texture, width: u32, height: u32) -> Option<Texture> {
-    let fits = |level: &usize| {
-        let (w, h) = texture.level_size(*level);
-        w >= width && h >= height
-    };
-    let level = (0..texture.mips.len()).rev().find(fits).unwrap_or(0);
-    let (from_width, from_height) = texture.level_size(level);
-    let texel = |x: i64, y: i64| {
-        // Materials repeat, so the texel beyond the edge is the one on the other side.
-        let x = x.rem_euclid(i64::from(from_width)) as u32;
-        let y = y.rem_euclid(i64::from(from_height)) as u32;
-        texture.pixel(level, x, y).unwrap_or_default()
-    };
-    let mut pixels = Vec::with_capacity(width as usize * height as usize);
-    for y in 0..height {
-        for x in 0..width {
-            let u = (x as f32 + 0.5) / width as f32 * from_width as f32 - 0.5;
-            let v = (y as f32 + 0.5) / height as f32 * from_height as f32 - 0.5;
-            let (left, top) = (u.floor(), v.floor());
-            let (s, t) = (u - left, v - top);
-            let (left, top) = (left as i64, top as i64);
-            let upper = texel(left, top).lerp(texel(left + 1, top), s);
-            let lower = texel(left, top + 1).lerp(texel(left + 1, top + 1), s);
-            pixels.push(upper.lerp(lower, t));
-        }
-    }
-    Texture::from_linear(
-        texture.name.as_str(),
-        width,
-        height,
-        texture.format,
-        &pixels,
-    )
-    .ok()
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-    use glam::Vec4;
-
-    fn plain(width: u32, height: u32, format: TextureFormat) -> Texture {
-        let pixels = vec![Vec4::new(0.5, 0.25, 1.0, 1.0); (width * height) as usize];
-        Texture::from_linear("plain", width, height, format, &pixels).unwrap()
-    }
-
-    #[test]
-    fn textures_of_one_size_share_a_bucket_and_every_format_finds_one() {
-        use TextureFormat::{Rgba8Linear, Rgba8Srgb, Rgba16Float};
-        let sizes = [4, 8, 16, 32, 64, 128, 256];
-        let mut textures: Vec<Texture> = sizes.iter().map(|&s| plain(s, s, Rgba8Srgb)).collect();
-        textures.push(plain(8, 8, Rgba8Linear));
-        textures.push(plain(8, 8, Rgba16Float));
-        textures.push(plain(8, 8, Rgba8Srgb));
-        let (buckets, places) = bucket(&textures.iter().collect::<Vec<_>>(), 256);
-        assert!(buckets.len() <= TEXTURE_BUCKETS);
-        for (texture, (number, _)) in textures.iter().zip(&places) {
-            assert_eq!(buckets[*number].format, texture.format);
-        }
-        assert_eq!(
-            places[9],
-            (1, 1),
-            "the second 8 × 8 texture is layer 1 of the first one's bucket"
-        );
-        // 64, 128 and 256 found no bucket of their own and went to the nearest.
-        assert_eq!(buckets[places[6].0].width, 32);
-        let mut slots = places.clone();
-        slots.sort_unstable();
-        slots.dedup();
-        assert_eq!(slots.len(), textures.len(), "no two textures share a layer");
-    }
-
-    #[test]
-    fn resampling_keeps_a_plain_colour_and_the_mean_of_a_ramp() {
-        let texture = plain(5, 3, TextureFormat::Rgba16Float);
-        let fitted = resample(&texture, 8, 8).unwrap();
-        let pixel = fitted.pixel(0, 7, 3).unwrap();
-        assert!((pixel - Vec4::new(0.5, 0.25, 1.0, 1.0)).length() < 1e-3);
+/// One layer of a level.
+fn extent(width: u32, height: u32) -> wgpu::Extent3d {
+    wgpu::Extent3d {
+        width: width.max(1),
+        height: height.max(1),
+        depth_or_array_layers: 1,
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{Checker, FormatSupport};
 use crate::description::{
-    Amount, Dispatch, LightStencil, Load, PassDesc, PassKind, Read, Reduction, Shape, StencilClear,
+    Amount, Dispatch, LightStencil, Load, PassDesc, PassKind, Read, Reduction, Shadow, ShadowViews,
+    Shape, StencilClear,
 };
 use crate::reflection::SampleKind;
 
@@ -40,6 +41,7 @@ impl<S: FormatSupport> Checker<'_, S> {
                     );
                 }
             }
+            PassKind::Shadow(shadow) => self.shadow(pass, shadow),
             PassKind::Compute(dispatch) => self.dispatch(pass, dispatch),
             PassKind::Clear => self.clear(pass),
             PassKind::Copy { from, to } | PassKind::History { from, to } => {
@@ -83,6 +85,62 @@ impl<S: FormatSupport> Checker<'_, S> {
                     pass.name, read.target
                 ),
                 "write depth to a second target in an earlier pass, and read that".to_owned(),
+            );
+        }
+    }
+
+    fn shadow(&mut self, pass: &PassDesc, shadow: &Shadow) {
+        if let Some(color) = pass.colors.first() {
+            self.report(
+                &color.at,
+                format!("the shadow pass `{}` writes colours", pass.name),
+                "draw depth alone; a geometry pass draws colours".to_owned(),
+            );
+        }
+        let Some(depth) = &pass.depth else {
+            self.report(
+                &pass.at,
+                format!("the shadow pass `{}` has no depth target", pass.name),
+                "add .depth(\"shadow_map\").clear(0.0)".to_owned(),
+            );
+            return;
+        };
+        if !depth.write {
+            self.report(
+                &depth.at,
+                format!("the shadow pass `{}` would write nothing", pass.name),
+                "drop .read_only()".to_owned(),
+            );
+        }
+        if let Some(stencil) = &depth.stencil {
+            self.report(
+                &stencil.at,
+                format!("the shadow pass `{}` has no use for stencil", pass.name),
+                "drop .stencil and what follows it".to_owned(),
+            );
+        }
+        if let ShadowViews::Given(views) = &shadow.views
+            && views.is_empty()
+        {
+            self.report(
+                &pass.at,
+                format!("the shadow pass `{}` has no views", pass.name),
+                "add .views(\"spot\"), or .view_from(eye, target, degrees, near, far)".to_owned(),
+            );
+        }
+        let layers = self.desc.target(&depth.target).map(|t| t.shape.layers());
+        let wanted = match shadow.views {
+            ShadowViews::Lights(lights) => lights.layers(),
+            ShadowViews::Given(_) => 1,
+        };
+        if let Some(layers) = layers.filter(|layers| *layers < wanted) {
+            self.report(
+                &depth.at,
+                format!(
+                    "the views of a point light take six layers; `{}` has {layers}",
+                    depth.target
+                ),
+                "declare it with .array(6), or .cube()".to_owned(),
             );
         }
     }
@@ -303,6 +361,7 @@ impl<S: FormatSupport> Checker<'_, S> {
     pub(super) fn shader(&mut self, pass: &PassDesc) {
         let draws = pass.kind.rasterises() || matches!(pass.kind, PassKind::Compute(_));
         let depth_only = match pass.kind {
+            PassKind::Shadow(_) => true,
             PassKind::Geometry(_) => pass.colors.is_empty() && pass.updates.is_empty(),
             _ => false,
         };

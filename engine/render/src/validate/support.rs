@@ -24,20 +24,13 @@ pub trait FormatSupport {
 }
 
 impl Gpu {
-    fn features_of(&self, format: Format) -> Option<wgpu::TextureFormatFeatures> {
-        let features = self.device.features();
-        features
-            .contains(format.0.required_features())
-            .then(|| format.0.guaranteed_format_features(features))
-    }
-
     fn usable(&self, format: Format, usage: Usages) -> bool {
-        self.features_of(format)
+        self.format_features(format.0)
             .is_some_and(|features| features.allowed_usages.contains(usage))
     }
 
     fn flagged(&self, format: Format, flag: Flags) -> bool {
-        self.features_of(format)
+        self.format_features(format.0)
             .is_some_and(|features| features.flags.contains(flag))
     }
 }

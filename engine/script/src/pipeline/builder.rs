@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lightbench_render::description::{Ability, Named, PassDesc};
+use lightbench_render::description::{Ability, Named, Parameter, PassDesc};
+use lightbench_render::heat_map::{self, HeatMap};
 use lightbench_render::problem::suggestion;
 use lightbench_render::{PipelineDesc, Place, Problem, Problems};
 use rhai::Dynamic;
@@ -142,8 +143,12 @@ impl Pipelines {
             problems.append(&mut builder.problems);
             if result.is_ok() {
                 problems.extend(builder.unknown_settings());
+                problems.extend(builder.add_heat_map());
             }
-            desc = Some(builder.desc.clone());
+            desc = Some(PipelineDesc {
+                scripts: compiler.sources.paths(),
+                ..builder.desc.clone()
+            });
         } else if result.is_ok() {
             problems.push(
                 Problem::new(
@@ -216,12 +221,47 @@ impl Builder {
         }
     }
 
+    /// Adds the parameters of the heat map, which every pipeline has, and changes the pipeline where
+    /// one is asked for.
+    fn add_heat_map(&mut self) -> Vec<Problem> {
+        let at = self.desc.file.clone();
+        let mut problems = Vec::new();
+        let mut add = |desc: &mut PipelineDesc, mut parameter: Parameter| {
+            if let Some(own) = desc.parameter(&parameter.name) {
+                problems.push(
+                    Problem::new(
+                        own.at.clone(),
+                        format!("every pipeline has a parameter `{}` already", own.name),
+                    )
+                    .with_hint("choose another name"),
+                );
+                return;
+            }
+            match self.settings.get(&parameter.name).map(ToString::to_string) {
+                None => {}
+                Some(text) => match parameter.parse(&text) {
+                    Ok(value) => parameter.value = value,
+                    Err(message) => problems.push(Problem::new(at.clone(), message)),
+                },
+            }
+            desc.parameters.push(parameter);
+        };
+        add(&mut self.desc, HeatMap::parameter(at.clone()));
+        if let Some(map) = HeatMap::of(&self.desc) {
+            add(&mut self.desc, HeatMap::most_parameter(at.clone()));
+            problems.extend(map.apply(&mut self.desc).err());
+        }
+        problems
+    }
+
     /// Settings that no parameter has taken.
     fn unknown_settings(&self) -> Vec<Problem> {
         let names = || self.desc.parameters.iter().map(|p| p.name.as_str());
         let mut problems = Vec::new();
         for (name, _) in self.settings.iter() {
-            if names().any(|known| known == name) {
+            if names().any(|known| known == name)
+                || [heat_map::PARAMETER, heat_map::MOST].contains(&name)
+            {
                 continue;
             }
             let mut problem = Problem::new(

@@ -6,6 +6,9 @@ mod parameters;
 mod passes;
 mod targets;
 
+use std::sync::Arc;
+
+use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::{Files, Origin};
 use lightbench_render::{PipelineDesc, Problem, Problems};
 
@@ -51,9 +54,10 @@ pub fn load_pipeline_within(
         Extras {
             register: &mut |api, _, _| builder::register(api, &made),
             globals: Vec::new(),
+            reuse: Reuse::default(),
         },
     );
-    let run = |ast| host.run(&ast, &path, limits.load_time);
+    let run = |ast: Arc<_>| host.run(&ast, &path, limits.load_time);
     let result = host.load(&path).and_then(run);
     made.finish(result, &host.compiler)
 }

@@ -74,7 +74,7 @@ fn a_whole_pipeline() {
     assert_eq!(desc.description, "Lights later.");
     assert_eq!(&*desc.file.file, "scripts/pipelines/deferred.rhai");
     let names: Vec<&str> = desc.parameters.iter().map(|p| p.name.as_str()).collect();
-    assert_eq!(names, ["prepass", "exposure", "curve"]);
+    assert_eq!(names, ["prepass", "exposure", "curve", "heat_map"]);
     let exposure = desc.parameter("exposure").unwrap();
     assert_eq!(exposure.value, ParameterValue::Number(1.5));
     assert_eq!(exposure.default, ParameterValue::Number(0.0));

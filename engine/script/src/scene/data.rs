@@ -1,10 +1,11 @@
 //! What a scene script works on.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::Files;
-use lightbench_assets::{Assets, Mesh, MeshId, Progress};
+use lightbench_assets::{Assets, Mesh, MeshId, Progress, Shared};
 use lightbench_world::glam::Vec3;
 use lightbench_world::{Entity, Name, Stored, Transform, World};
 
@@ -25,17 +26,17 @@ pub(super) struct Data {
     pub(super) world: World,
     pub(super) assets: Assets,
     pub(super) files: Files,
+    /// What earlier loads have made.
+    pub(super) reuse: Reuse,
     pub(super) settings: Settings,
     pub(super) parameters: Vec<SceneParameter>,
     pub(super) limits: Limits,
     pub(super) watch: Arc<Watch>,
     pub(super) log: Log,
     pub(super) progress: Progress,
-    /// Models and pictures that were read.
-    pub(super) read: BTreeSet<String>,
     /// How the assets were made.
     pub(super) recipes: Recipes,
-    /// Models that parts were taken from.
+    /// Models that were read.
     pub(super) models: Models,
     /// Points that entities stay turned to when they move.
     pub(super) aims: HashMap<Entity, Vec3>,
@@ -51,6 +52,7 @@ pub(super) struct Stage(Arc<Mutex<Data>>);
 impl Stage {
     pub(super) fn new(
         files: &Files,
+        reuse: &Reuse,
         settings: &Settings,
         limits: &Limits,
         watch: &Arc<Watch>,
@@ -61,13 +63,13 @@ impl Stage {
             world: World::new(),
             assets: Assets::new(),
             files: files.clone(),
+            reuse: reuse.clone(),
             settings: settings.clone(),
             parameters: Vec::new(),
             limits: limits.clone(),
             watch: Arc::clone(watch),
             log: log.clone(),
             progress: progress.clone(),
-            read: BTreeSet::new(),
             recipes: Recipes::default(),
             models: Models::default(),
             aims: HashMap::new(),
@@ -180,9 +182,9 @@ impl Data {
     }
 
     /// Adds a mesh, if the scene may have as many triangles.
-    pub(super) fn add_mesh(&mut self, mesh: Mesh) -> Result<MeshId, Mistake> {
+    pub(super) fn add_mesh(&mut self, mesh: Shared<Mesh>) -> Result<MeshId, Mistake> {
         self.count_triangles(mesh.triangle_count())?;
-        Ok(self.assets.add_mesh(mesh))
+        Ok(self.assets.add_shared_mesh(mesh))
     }
 
     pub(super) fn count_triangles(&mut self, count: usize) -> Result<(), Mistake> {

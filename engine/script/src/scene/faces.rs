@@ -1,23 +1,70 @@
 //! Meshes from flat faces, corner by corner.
 
-use lightbench_assets::Mesh;
-use lightbench_world::glam::{DVec3, Vec2, Vec3};
+use std::fmt;
+use std::sync::Arc;
 
-use crate::api::{Arguments, Mistake};
+use lightbench_assets::{Digest, Mesh};
+use lightbench_world::glam::{DVec3, Vec2, Vec3};
+use rhai::Array;
+
+use crate::api::{Arguments, Mistake, spell_call};
 
 /// The most corners of one face.
 const MAX_CORNERS: usize = 1024;
 
+/// The corners of each face. They may be many, so their `Debug` writes only the digest of their
+/// bits, and their call is spelled only for files.
+#[derive(Clone)]
+pub(super) struct Corners {
+    faces: Arc<[Vec<Vec3>]>,
+    digest: Digest,
+}
+
+impl fmt::Debug for Corners {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.digest)
+    }
+}
+
+impl Corners {
+    fn new(faces: Vec<Vec<Vec3>>) -> Self {
+        let mut bytes = Vec::new();
+        for face in &faces {
+            bytes.extend(face.len().to_le_bytes());
+            let numbers = face.iter().flat_map(|corner| corner.to_array());
+            bytes.extend(numbers.flat_map(f32::to_le_bytes));
+        }
+        Self {
+            faces: faces.into(),
+            digest: Digest::of(&bytes),
+        }
+    }
+
+    /// The call that makes them.
+    pub(super) fn spelled(&self) -> String {
+        let corner = |corner: &Vec3| spell_call("vec3", corner.as_dvec3());
+        let face = |face: &Vec<Vec3>| {
+            let corners: Vec<String> = face.iter().map(corner).collect();
+            format!("[{}]", corners.join(", "))
+        };
+        let faces: Vec<String> = self.faces.iter().map(face).collect();
+        format!("faces([{}])", faces.join(", "))
+    }
+}
+
 /// Reads an array of faces, each an array of at least three corners.
-pub(super) fn read(a: &Arguments) -> Result<Vec<Vec<Vec3>>, Mistake> {
+pub(super) fn read(a: &Arguments) -> Result<Corners, Mistake> {
     let wanted = "an array of faces, each an array of three or more corners, as in \
                   `[[vec3(0, 0, 0), vec3(1, 0, 0), vec3(1, 1, 0)]]`";
+    let wrong = || a.wrong(0, wanted);
     let mut faces = Vec::new();
-    for face in a.array(0)? {
-        let corners = face.into_array().map_err(|_| a.wrong(0, wanted))?;
+    // There may be many: they are read in place.
+    let listed = a.value(0).read_lock::<Array>();
+    for face in listed.ok_or_else(|| a.wrong(0, "an array"))?.iter() {
+        let corners = face.read_lock::<Array>().ok_or_else(wrong)?;
         let mut points = Vec::with_capacity(corners.len());
-        for corner in corners {
-            let point: DVec3 = corner.try_cast().ok_or_else(|| a.wrong(0, wanted))?;
+        for corner in corners.iter() {
+            let point = corner.read_lock::<DVec3>().ok_or_else(wrong)?;
             points.push(point.as_vec3());
         }
         if !(3..=MAX_CORNERS).contains(&points.len()) {
@@ -31,14 +78,14 @@ pub(super) fn read(a: &Arguments) -> Result<Vec<Vec<Vec3>>, Mistake> {
         }
         faces.push(points);
     }
-    Ok(faces)
+    Ok(Corners::new(faces))
 }
 
 /// The mesh of flat convex faces, seen from the side on which their corners run counter-clockwise.
 /// Texture coordinates in metres from the first corner, u along the first edge.
-pub(super) fn mesh(faces: &[Vec<Vec3>]) -> Mesh {
+pub(super) fn mesh(corners: &Corners) -> Mesh {
     let mut mesh = Mesh::default().named("faces");
-    for corners in faces {
+    for corners in corners.faces.iter() {
         let normal = newell(corners);
         let first = corners[0];
         let along = (corners[1] - first)
@@ -92,7 +139,7 @@ mod tests {
             Vec3::new(2.0, 2.0, -2.0),
             Vec3::new(0.0, 2.0, -2.0),
         ];
-        let mesh = mesh(&[square]);
+        let mesh = mesh(&Corners::new(vec![square]));
         mesh.validate().unwrap();
         assert_eq!(mesh.triangle_count(), 2);
         assert!((mesh.area() - 2.0 * 8_f64.sqrt()).abs() < 1e-6);
@@ -105,9 +152,21 @@ mod tests {
     }
 
     #[test]
+    fn corners_are_told_apart_by_every_bit_and_by_their_faces() {
+        let of = |faces: &[&[Vec3]]| {
+            let faces = faces.iter().map(|face| face.to_vec()).collect();
+            format!("{:?}", Corners::new(faces))
+        };
+        let next = Vec3::new(1.0, f32::from_bits(1), 0.0);
+        assert_eq!(of(&[&[Vec3::X, Vec3::Y]]), of(&[&[Vec3::X, Vec3::Y]]));
+        assert_ne!(of(&[&[Vec3::X, Vec3::Y]]), of(&[&[next, Vec3::Y]]));
+        assert_ne!(of(&[&[Vec3::X, Vec3::Y]]), of(&[&[Vec3::X], &[Vec3::Y]]));
+    }
+
+    #[test]
     fn faces_without_an_area_do_no_harm() {
         let line = vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
         let point = vec![Vec3::ONE; 5];
-        mesh(&[line, point]).validate().unwrap();
+        mesh(&Corners::new(vec![line, point])).validate().unwrap();
     }
 }

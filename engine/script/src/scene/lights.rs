@@ -1,10 +1,11 @@
 //! Lights.
 
-use lightbench_world::glam::Vec3;
-use lightbench_world::{Light, LightKind, Transform};
+use lightbench_world::glam::{DVec3, Vec3};
+use lightbench_world::{ClipVolume, Light, LightKind, Transform};
 
 use super::data::{Data, Stage};
 use super::entities::{getter, maker, method, setter, start};
+use super::shapes;
 use crate::api::{Api, Arguments, Mistake};
 use crate::color::Color;
 
@@ -39,6 +40,30 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
                 },
             )
         });
+    }
+    for form in ["clip_volume(mesh)", "clip_volume(mesh, offset)"] {
+        method(
+            api,
+            stage,
+            form,
+            "Confines a light to the inside of a closed mesh, so that it does not shine through \
+             walls. The mesh lies where the light is, moved by `offset` metres along the light's own \
+             axes. Pipelines that draw lights as volumes with stencil can do it.",
+            |data, entity, a| {
+                let _: Light = data.get(entity, "light")?;
+                let mesh = shapes::mesh_argument(data, a, 0)?;
+                let offset = match a.len() {
+                    2 => a.object::<DVec3>(1)?.as_vec3(),
+                    _ => Vec3::ZERO,
+                };
+                let volume = ClipVolume {
+                    mesh,
+                    offset,
+                    ..ClipVolume::default()
+                };
+                data.insert(entity, volume)
+            },
+        );
     }
     for form in ["color(red, green, blue)", "color(color)"] {
         method(

@@ -18,6 +18,10 @@ mod shapes;
 mod state;
 mod textures;
 
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lightbench_assets::cache::{Cache, Reuse};
 use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, Progress};
 use lightbench_render::problem::suggestion;
@@ -53,6 +57,7 @@ pub struct Scene {
     pub path: String,
     host: Host,
     stage: Stage,
+    read: Read,
     /// Calls `update`, where the script has it.
     update: Option<AST>,
     /// Whether an update failed; the script is not called again.
@@ -88,10 +93,15 @@ pub fn load_scene(
     settings: &Settings,
     progress: &Progress,
 ) -> Result<Scene, Problems> {
-    load_scene_within(files, name_or_path, settings, progress, &Limits::default())
+    let (cache, limits) = (Cache::default(), Limits::default());
+    let scene = load_scene_within(files, name_or_path, settings, progress, &cache, &limits);
+    // Nobody loads with this cache again.
+    cache.clear();
+    scene
 }
 
-/// [`load_scene`] with other limits.
+/// [`load_scene`] with other limits, and with what earlier loads have made: the scene is the same as
+/// without, and each mesh and texture that is the same as in an earlier one has the same revision.
 ///
 /// # Errors
 /// As [`load_scene`].
@@ -100,8 +110,12 @@ pub fn load_scene_within(
     name_or_path: &str,
     settings: &Settings,
     progress: &Progress,
+    cache: &Cache,
     limits: &Limits,
 ) -> Result<Scene, Problems> {
+    let read = Read::default();
+    let files = &read.watch(files);
+    let reuse = cache.begin();
     let path = find(files, SCENES, name_or_path)?;
     let name = path.rsplit('/').next().unwrap_or(&path);
     if progress.begin(format!("Running {name}"), 0.0).is_err() {
@@ -109,15 +123,18 @@ pub fn load_scene_within(
         return Err(stopped.into());
     }
     if path.ends_with(&format!(".{}", saved::EXTENSION)) {
-        return saved::load(files, &path, settings, progress, limits);
+        let mut scene = saved::load(files, &reuse, &path, settings, progress, limits)?;
+        scene.read = read;
+        return Ok(scene);
     }
-    let (host, stage, _) = host(files, settings, limits, progress);
+    let (host, stage, _) = host(files, &reuse, settings, limits, progress);
     let ast = host.load(&path)?;
     let update = update_call(&host, &path)?;
     host.watch.start(limits.load_time);
     let module = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine)
         .map_err(|error| host.compiler.explain(&error, &path))?;
     let mut scene = Scene::new(path, host, stage, update);
+    scene.read = read;
     scene
         .host
         .engine
@@ -136,6 +153,7 @@ const SCRIPT_MODULE: &str = "scene_script";
 pub fn scene_names() -> Names {
     let (host, ..) = host(
         &Files::shipped(),
+        &Reuse::default(),
         &Settings::new(),
         &Limits::default(),
         &Progress::new(),
@@ -145,6 +163,7 @@ pub fn scene_names() -> Names {
 
 fn host(
     files: &Files,
+    reuse: &Reuse,
     settings: &Settings,
     limits: &Limits,
     progress: &Progress,
@@ -157,7 +176,7 @@ fn host(
         Extras {
             register: &mut |api, watch, log| {
                 watch.stop_with(progress);
-                let made = Stage::new(files, settings, limits, watch, log, progress);
+                let made = Stage::new(files, reuse, settings, limits, watch, log, progress);
                 parameters::register(api, &made);
                 entities::register(api, &made);
                 motion::register(api, &made);
@@ -173,10 +192,13 @@ fn host(
                 stage = Some(made);
             },
             globals: vec![("state", Dynamic::from(state::State::default()))],
+            reuse: reuse.clone(),
         },
     );
-    let stage = stage
-        .unwrap_or_else(|| Stage::new(files, settings, limits, &host.watch, &host.log, progress));
+    let stage = stage.unwrap_or_else(|| {
+        let (watch, log) = (&host.watch, &host.log);
+        Stage::new(files, reuse, settings, limits, watch, log, progress)
+    });
     (host, stage, defined)
 }
 
@@ -218,6 +240,7 @@ impl Scene {
             path,
             host,
             stage,
+            read: Read::default(),
             update,
             stopped: false,
             systems: FrameSystems::default(),
@@ -251,6 +274,7 @@ impl Scene {
             return Err(Problems(problems));
         }
         self.host.watch.loaded();
+        data.reuse.finish();
         data.progress = Progress::new();
         self.parameters = data.parameters.clone();
         std::mem::swap(&mut self.world, &mut data.world);
@@ -365,13 +389,11 @@ impl Scene {
         active.map(|row| cameras.entities()[row])
     }
 
-    /// Every file that the scene came from: scripts, models and pictures. When one changes, the
-    /// scene is to be loaded again.
+    /// Every file that the scene came from: scripts, models with the files that they name, and
+    /// pictures. When one changes, the scene is to be loaded again.
     #[must_use]
     pub fn files(&self) -> Vec<String> {
-        let mut files = self.host.files_read();
-        files.extend(self.stage.lock().read.iter().cloned());
-        files
+        self.read.list()
     }
 
     /// Takes out what the script has printed since the last call, with warnings of its models.
@@ -383,6 +405,28 @@ impl Scene {
     #[must_use]
     pub fn names(&self) -> &Names {
         &self.host.compiler.names
+    }
+}
+
+/// The files that a scene has read.
+#[derive(Clone, Default)]
+struct Read(Arc<Mutex<BTreeSet<String>>>);
+
+impl Read {
+    /// A store whose reads are noted.
+    fn watch(&self, files: &Files) -> Files {
+        let noted = self.clone();
+        files.observed(move |path, _| {
+            noted.lock().insert(path.to_owned());
+        })
+    }
+
+    fn list(&self) -> Vec<String> {
+        self.lock().iter().cloned().collect()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeSet<String>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

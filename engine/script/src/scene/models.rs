@@ -5,15 +5,17 @@ use std::sync::Arc;
 
 use lightbench_assets::gltf::{self, GltfScene};
 use lightbench_assets::obj::{self, Model, ModelError, Options};
-use lightbench_assets::{MaterialId, MeshId, Texture, TextureId};
+use lightbench_assets::{MaterialId, MeshId, Shared, Texture, TextureId};
 use lightbench_world::{Entity, MeshRenderer, Transform};
 
 use super::data::{Data, Stage};
+use super::recipes::MeshRecipe;
 use super::shapes::MeshHandle;
 use crate::api::{Api, Arguments, Mistake, spell_number, spell_text};
 
-/// Models that were read for their parts, by path and crease angle.
-pub(super) type Models = HashMap<(String, u32), Arc<Model>>;
+/// Models that were read, by path and crease angle, so that a scene that uses one in several places
+/// has one look at its files. An OBJ file has no nodes.
+pub(super) type Models = HashMap<(String, u32), Arc<GltfScene>>;
 
 pub(super) fn register(api: &mut Api, stage: &Stage) {
     for form in [
@@ -94,51 +96,31 @@ fn crease(a: &Arguments, index: usize) -> Result<Options, Mistake> {
     })
 }
 
-/// Runs a reader of models without counting its time as the script's.
-fn read<T>(
-    data: &mut Data,
-    path: &str,
-    reader: impl FnOnce(&Data) -> Result<T, ModelError>,
-) -> Result<T, Mistake> {
-    data.read.insert(path.to_owned());
-    let watch = Arc::clone(&data.watch);
-    watch
-        .free_of_charge(|| reader(data))
-        .map_err(|error| match error {
-            ModelError::Cancelled(_) => Mistake::new("the script was stopped"),
-            error => Mistake::new(error.to_string()),
-        })
-}
-
-fn read_obj(data: &mut Data, path: &str, options: &Options) -> Result<Model, Mistake> {
-    read(data, path, |data| {
-        obj::load(&data.files, path, options, &data.progress)
-    })
-}
-
-fn read_gltf(data: &mut Data, path: &str) -> Result<GltfScene, Mistake> {
-    read(data, path, |data| {
-        gltf::load(&data.files, path, &data.progress)
-    })
-}
-
-/// A model of which parts are asked for one by one, read once.
-fn kept(data: &mut Data, path: &str, options: &Options) -> Result<Arc<Model>, Mistake> {
+/// A model with its nodes, read once. Its time is not the script's.
+fn read(data: &mut Data, path: &str, options: &Options) -> Result<Arc<GltfScene>, Mistake> {
     let key = (path.to_owned(), options.crease_angle.to_bits());
     if let Some(model) = data.models.get(&key) {
         return Ok(Arc::clone(model));
     }
-    let model = match is_gltf(path) {
-        true => read_gltf(data, path)?.model,
-        false => read_obj(data, path, options)?,
-    };
-    let model = Arc::new(model);
+    let watch = Arc::clone(&data.watch);
+    let (files, reuse, progress) = (&data.files, &data.reuse, &data.progress);
+    let read = watch.free_of_charge(|| match is_gltf(path) {
+        true => gltf::load(files, reuse, path, progress),
+        false => obj::load(files, reuse, path, options, progress).map(|model| GltfScene {
+            model,
+            nodes: Vec::new(),
+        }),
+    });
+    let model = Arc::new(read.map_err(|error| match error {
+        ModelError::Cancelled(_) => Mistake::new("the script was stopped"),
+        error => Mistake::new(error.to_string()),
+    })?);
     data.models.insert(key, Arc::clone(&model));
     Ok(model)
 }
 
 fn mesh(data: &mut Data, path: &str, number: usize, options: &Options) -> Result<MeshId, Mistake> {
-    let model = kept(data, path, options)?;
+    let model = &read(data, path, options)?.model;
     let Some((mesh, _)) = model.meshes.get(number) else {
         let count = model.meshes.len();
         return Err(missing(path, "meshes", count, number));
@@ -150,8 +132,12 @@ fn mesh(data: &mut Data, path: &str, number: usize, options: &Options) -> Result
 }
 
 /// One of the pictures of a model.
-pub(super) fn texture(data: &mut Data, path: &str, number: usize) -> Result<Arc<Texture>, Mistake> {
-    let model = kept(data, path, &Options::default())?;
+pub(super) fn texture(
+    data: &mut Data,
+    path: &str,
+    number: usize,
+) -> Result<Shared<Texture>, Mistake> {
+    let model = &read(data, path, &Options::default())?.model;
     let found = model.textures.get(number).cloned();
     found.ok_or_else(|| missing(path, "pictures", model.textures.len(), number))
 }
@@ -163,13 +149,13 @@ fn missing(path: &str, what: &str, count: usize, number: usize) -> Mistake {
     .with_hint("they are counted from 0")
 }
 
-fn mesh_recipe(path: &str, number: usize, options: &Options) -> String {
+fn mesh_recipe(path: &str, number: usize, options: &Options) -> MeshRecipe {
     let path = spell_text(path);
     if *options == Options::default() {
-        return format!("model_mesh({path}, {number})");
+        return MeshRecipe::Calls(format!("model_mesh({path}, {number})"));
     }
     let degrees = spell_number(f64::from(options.crease_angle).to_degrees());
-    format!("model_mesh({path}, {number}, {degrees})")
+    MeshRecipe::Calls(format!("model_mesh({path}, {number}, {degrees})"))
 }
 
 /// Adds the model to the scene's assets with the recipes of its parts, and passes its warnings on.
@@ -178,7 +164,7 @@ fn add(
     a: &Arguments,
     path: &str,
     options: &Options,
-    model: Model,
+    model: &Model,
 ) -> Result<Vec<(MeshId, MaterialId)>, Mistake> {
     for warning in &model.warnings {
         data.log.add(a.place(), warning.to_string());
@@ -190,7 +176,7 @@ fn add(
         let id = TextureId((first + number) as u32);
         data.recipes.textures.insert(id, recipe);
     }
-    let drawn = model.add_to(&mut data.assets);
+    let drawn = model.clone().add_to(&mut data.assets);
     for (number, (mesh, _)) in drawn.iter().enumerate() {
         let recipe = mesh_recipe(path, number, options);
         data.recipes.meshes.insert(*mesh, recipe);
@@ -227,8 +213,8 @@ fn load_obj(
     path: &str,
     options: &Options,
 ) -> Result<Entity, Mistake> {
-    let model = read_obj(data, path, options)?;
-    let drawn = add(data, a, path, options, model)?;
+    let loaded = read(data, path, options)?;
+    let drawn = add(data, a, path, options, &loaded.model)?;
     let name = stem(data, path);
     let root = data.spawn(&name)?;
     for (index, drawn) in drawn.into_iter().enumerate() {
@@ -241,8 +227,9 @@ fn load_obj(
 }
 
 fn load_gltf(data: &mut Data, a: &Arguments, path: &str) -> Result<Entity, Mistake> {
-    let GltfScene { model, nodes } = read_gltf(data, path)?;
-    let drawn = add(data, a, path, &Options::default(), model)?;
+    let loaded = read(data, path, &Options::default())?;
+    let drawn = add(data, a, path, &Options::default(), &loaded.model)?;
+    let nodes = &loaded.nodes;
     let name = stem(data, path);
     let root = data.spawn(&name)?;
     let mut entities: Vec<Entity> = Vec::with_capacity(nodes.len());
@@ -252,7 +239,7 @@ fn load_gltf(data: &mut Data, a: &Arguments, path: &str) -> Result<Entity, Mista
         let parent = node.parent.and_then(|place| entities.get(place));
         put_below(data, entity, parent.copied().unwrap_or(root))?;
         entities.push(entity);
-        let parts = drawn.get(node.meshes).unwrap_or_default();
+        let parts = drawn.get(node.meshes.clone()).unwrap_or_default();
         match parts {
             // One mesh is the node's own; of several each gets an entity.
             [only] => draw(data, entity, *only)?,
@@ -270,7 +257,7 @@ fn load_gltf(data: &mut Data, a: &Arguments, path: &str) -> Result<Entity, Mista
         if let Some(camera) = node.camera {
             data.insert(entity, camera)?;
         }
-        if let Some(animation) = node.animation {
+        if let Some(animation) = node.animation.clone() {
             data.insert(entity, animation)?;
         }
     }

@@ -5,13 +5,42 @@ use std::collections::HashMap;
 use lightbench_assets::{Material, MeshId, Reflection, TextureId};
 use lightbench_world::glam::Vec3;
 
+use super::faces::Corners;
 use crate::api::{Arguments, spell_call, spell_number, spell_text};
 
 /// The calls that made each mesh and each texture. Materials are their own numbers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Recipes {
-    pub(super) meshes: HashMap<MeshId, String>,
+    pub(super) meshes: HashMap<MeshId, MeshRecipe>,
     pub(super) textures: HashMap<TextureId, String>,
+}
+
+/// The calls that made a mesh.
+#[derive(Clone, Debug)]
+pub(super) enum MeshRecipe {
+    /// As a script would write them.
+    Calls(String),
+    /// A call with so many numbers that it is spelled only when it is written, and calls behind it.
+    Faces(Corners, String),
+}
+
+impl MeshRecipe {
+    /// The calls as a script would write them.
+    pub(super) fn spelled(&self) -> String {
+        match self {
+            Self::Calls(calls) => calls.clone(),
+            Self::Faces(corners, calls) => format!("{}{calls}", corners.spelled()),
+        }
+    }
+
+    /// With one more call behind it.
+    pub(super) fn then(self, call: &Arguments) -> Option<Self> {
+        let call = call.spelled()?;
+        Some(match self {
+            Self::Calls(calls) => Self::Calls(format!("{calls}.{call}")),
+            Self::Faces(corners, calls) => Self::Faces(corners, format!("{calls}.{call}")),
+        })
+    }
 }
 
 /// A recipe with one more call behind it.

@@ -16,6 +16,7 @@ use std::hash::Hash;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, MaterialId, MeshId, Progress, TextureId};
 use lightbench_render::{Place, Problem, Problems};
@@ -25,7 +26,7 @@ use rhai::{Dynamic, Scope};
 
 use super::data::Stage;
 use super::materials::Material;
-use super::recipes::{self, Recipes};
+use super::recipes::{self, MeshRecipe, Recipes};
 use super::shapes::{MeshHandle, Shape};
 use super::textures::Pattern;
 use super::{Scene, host};
@@ -60,6 +61,7 @@ pub(super) fn register(api: &mut Api, textures: &Textures) {
 /// Reads a file that holds a world.
 pub(super) fn load(
     files: &Files,
+    reuse: &Reuse,
     path: &str,
     settings: &Settings,
     progress: &Progress,
@@ -67,8 +69,7 @@ pub(super) fn load(
 ) -> Result<Scene, Problems> {
     let text = files.read_text(path);
     let text = text.map_err(|error| Problem::new(Place::file(path), error.to_string()))?;
-    let (host, stage, textures) = host(files, settings, limits, progress);
-    stage.lock().read.insert(path.to_owned());
+    let (host, stage, textures) = host(files, reuse, settings, limits, progress);
     host.watch.start(limits.load_time);
     let mut maker = Maker {
         host: &host,
@@ -199,7 +200,7 @@ impl Saved {
             "mesh",
             used.iter()
                 .filter_map(|&id| Some((id, &*assets.mesh(id)?.name))),
-            |id| recipes.meshes.get(&id).cloned(),
+            |id| recipes.meshes.get(&id).map(MeshRecipe::spelled),
             "",
         )?;
         let used: BTreeSet<MaterialId> = renderers.material().iter().copied().collect();

@@ -2,9 +2,12 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lightbench_assets::images::{Purpose, decode_texture};
-use lightbench_assets::procedural_texture::{self, Brick, Marble, Plaster, Stone, Tiles, Weave};
-use lightbench_assets::{MAX_TEXTURE_SIZE, Texture, TextureId};
+use lightbench_assets::cache::Kept;
+use lightbench_assets::images::{Purpose, shared_texture};
+use lightbench_assets::procedural_texture::{
+    self, Brick, Marble, Plaster, Stone, Surface, Tiles, Weave,
+};
+use lightbench_assets::{MAX_TEXTURE_SIZE, Shared, Texture, TextureId};
 use lightbench_world::glam::Vec3;
 
 use super::data::{Data, Stage};
@@ -48,6 +51,43 @@ impl Kind {
             Self::Checker { .. } => "checker",
             Self::Picture { .. } => "picture",
             Self::OfModel { .. } => "model_texture",
+        }
+    }
+}
+
+/// The pictures of a texture.
+#[derive(Clone)]
+enum Painted {
+    Color(Shared<Texture>),
+    Normal(Shared<Texture>),
+    Surface {
+        color: Shared<Texture>,
+        normal: Shared<Texture>,
+    },
+    /// Colours or normals, whichever it is taken for.
+    Either(Shared<Texture>),
+}
+
+impl From<Texture> for Painted {
+    fn from(color: Texture) -> Self {
+        Self::Color(Shared::shared(color))
+    }
+}
+
+impl From<Surface> for Painted {
+    fn from(surface: Surface) -> Self {
+        Self::Surface {
+            color: Shared::shared(surface.base_color),
+            normal: Shared::shared(surface.normal),
+        }
+    }
+}
+
+impl Kept for Painted {
+    fn bytes(&self) -> usize {
+        match self {
+            Self::Color(one) | Self::Normal(one) | Self::Either(one) => one.bytes(),
+            Self::Surface { color, normal } => color.bytes() + normal.bytes(),
         }
     }
 }
@@ -136,55 +176,61 @@ impl Plan {
             return Err(Mistake::new("the script was stopped"));
         }
         let watch = Arc::clone(&data.watch);
-        let surface = match &self.kind {
-            Kind::Stone(stone) => watch.free_of_charge(|| stone.paint()),
-            Kind::Plaster(plaster) => watch.free_of_charge(|| plaster.paint()),
-            Kind::Brick(brick) => watch.free_of_charge(|| brick.paint()),
-            Kind::Tiles(tiles) => watch.free_of_charge(|| tiles.paint()),
-            Kind::Weave(weave) => watch.free_of_charge(|| weave.paint()),
-            Kind::Marble(marble) => {
-                let texture = watch.free_of_charge(|| marble.paint());
-                self.color = Some(data.assets.add_texture(texture));
-                return Ok(());
+        let painted = watch.free_of_charge(|| self.kind.paint(data, purpose))?;
+        let mut add = |texture| data.assets.add_shared_texture(texture);
+        match painted {
+            Painted::Color(color) => self.color = Some(add(color)),
+            Painted::Normal(normal) => self.normal = Some(add(normal)),
+            Painted::Surface { color, normal } => {
+                (self.color, self.normal) = (Some(add(color)), Some(add(normal)));
             }
-            Kind::Checker {
-                size,
-                squares,
-                colors,
-            } => {
-                let texture = procedural_texture::checker(*size, *squares, *colors);
-                self.color = Some(data.assets.add_texture(texture));
-                return Ok(());
+            Painted::Either(texture) => {
+                self.color = Some(add(texture));
+                self.normal = self.color;
             }
-            Kind::Picture { path } => {
-                let texture = watch.free_of_charge(|| read_picture(data, path, purpose))?;
-                let id = Some(data.assets.add_texture(texture));
-                match purpose {
-                    Purpose::Color => self.color = id,
-                    Purpose::Data => self.normal = id,
-                }
-                return Ok(());
-            }
-            Kind::OfModel { path, number } => {
-                let texture = models::texture(data, path, *number)?;
-                let id = data.assets.add_shared_texture(texture);
-                (self.color, self.normal) = (Some(id), Some(id));
-                return Ok(());
-            }
-        };
-        self.color = Some(data.assets.add_texture(surface.base_color));
-        self.normal = Some(data.assets.add_texture(surface.normal));
+        }
         Ok(())
     }
 }
 
-fn read_picture(data: &mut Data, path: &str, purpose: Purpose) -> Result<Texture, Mistake> {
-    data.read.insert(path.to_owned());
+impl Kind {
+    /// The pictures, unless an earlier load has made them of the same.
+    fn paint(&self, data: &mut Data, purpose: Purpose) -> Result<Painted, Mistake> {
+        let reuse = data.reuse.clone();
+        let kept = |paint: &dyn Fn() -> Painted| reuse.get("painted texture", self, paint);
+        Ok(match self {
+            Self::Stone(stone) => kept(&|| stone.paint().into()),
+            Self::Plaster(plaster) => kept(&|| plaster.paint().into()),
+            Self::Brick(brick) => kept(&|| brick.paint().into()),
+            Self::Tiles(tiles) => kept(&|| tiles.paint().into()),
+            Self::Weave(weave) => kept(&|| weave.paint().into()),
+            Self::Marble(marble) => kept(&|| marble.paint().into()),
+            Self::Checker {
+                size,
+                squares,
+                colors,
+            } => kept(&|| procedural_texture::checker(*size, *squares, *colors).into()),
+            Self::Picture { path } => {
+                let picture = read_picture(data, path, purpose)?;
+                match purpose {
+                    Purpose::Color => Painted::Color(picture),
+                    Purpose::Data => Painted::Normal(picture),
+                }
+            }
+            Self::OfModel { path, number } => {
+                Painted::Either(models::texture(data, path, *number)?)
+            }
+        })
+    }
+}
+
+fn read_picture(data: &Data, path: &str, purpose: Purpose) -> Result<Shared<Texture>, Mistake> {
     let bytes = data
         .files
         .read(path)
         .map_err(|error| Mistake::new(error.to_string()))?;
-    decode_texture(path, &bytes, purpose).map_err(|error| Mistake::new(error.to_string()))
+    shared_texture(&data.reuse, path, &bytes, purpose)
+        .map_err(|error| Mistake::new(error.to_string()))
 }
 
 pub(super) fn register(api: &mut Api, stage: &Stage) {

@@ -280,16 +280,36 @@ pub fn memory_section(w: &mut Writer, c: &Comparison) {
             numbers("Read a frame"),
             numbers("Written a frame"),
             numbers("Bytes a pixel and frame"),
+            numbers("Stencil"),
+            numbers("Overdraw"),
+            numbers("Tile loads"),
+            numbers("Tile stores"),
         ];
         table(w, "Traffic, modelled from the declared formats and sizes.", &columns, &reads);
+        let text = "Read and written count one fragment a covered pixel; blending counts as both. \
+                    Apart from them: stencil; overdraw, which is what the fragments beyond that move, \
+                    as far as the driver counts them; and what a GPU that works in tiles loads before \
+                    passes and stores after them instead.";
+        w.leaf("p", &[("class", "note")], text);
     });
 }
 
 fn traffic(p: &PipelineResult, pixels: f64) -> Vec<String> {
-    let read: u64 = p.passes.iter().map(|pass| pass.bytes_read).sum();
-    let written: u64 = p.passes.iter().map(|pass| pass.bytes_written).sum();
+    let sum = |bytes: fn(&PassResult) -> u64| p.passes.iter().map(bytes).sum::<u64>();
+    let (read, written) = (sum(|pass| pass.bytes_read), sum(|pass| pass.bytes_written));
     let each = significant((read + written) as f64 / pixels);
-    vec![p.label().to_owned(), bytes(read), bytes(written), each]
+    let counted = p.passes.iter().any(|pass| pass.bytes_overdraw.is_some());
+    let overdraw = counted.then(|| bytes(sum(|pass| pass.bytes_overdraw.unwrap_or(0))));
+    vec![
+        p.label().to_owned(),
+        bytes(read),
+        bytes(written),
+        each,
+        bytes(sum(|pass| pass.bytes_stencil)),
+        or_dash(overdraw),
+        bytes(sum(|pass| pass.bytes_loaded)),
+        bytes(sum(|pass| pass.bytes_stored)),
+    ]
 }
 
 /// The clock in the words of a chart's caption.

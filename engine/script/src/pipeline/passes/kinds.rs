@@ -1,7 +1,8 @@
 //! What `geometry` and `lights` passes draw.
 
 use lightbench_render::description::{
-    DrawList, DrawOrder, Faces, Geometry, LightStencil, Lights, ObjectLights, PassKind, Repeat,
+    DrawList, DrawOrder, Faces, Geometry, LightStencil, Lights, MAX_LAYERS, ObjectLights, PassKind,
+    Repeat,
 };
 
 use super::{Open, method, only_for};
@@ -36,11 +37,40 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "faces(faces)",
-        "Which faces a geometry pass draws: `material` (back faces only of two-sided materials), \
-         `front`, `back` or `both`.",
+        "Which faces a geometry or shadow pass draws: `material` (back faces only of two-sided \
+         materials), `front`, `back` or `both`.",
         |open, arguments| {
             let faces = arguments.choice(0, &Faces::NAMES)?;
-            of_geometry(open, "faces", |geometry| geometry.faces = faces)
+            match &mut open.pass.kind {
+                PassKind::Shadow(shadow) => {
+                    shadow.faces = faces;
+                    Ok(())
+                }
+                _ => of_geometry(open, "faces", |geometry| geometry.faces = faces),
+            }
+        },
+    );
+    method(
+        api,
+        "pull_vertices(on)",
+        "Draws without vertex buffers: the shader's own vertex stage gets `vertex_index` 0, 1, 2, … \
+         three for each triangle, and fetches from `mesh_indices` and `mesh_positions`.",
+        |open, arguments| {
+            let on = arguments.switch(0)?;
+            of_geometry(open, "pull_vertices", |geometry| {
+                geometry.pull_vertices = on
+            })
+        },
+    );
+    method(
+        api,
+        "layers(count)",
+        "Spreads the objects over so many layers, such that those that overlap on the screen are in \
+         different ones as far as there are enough. Shaders find an object's layer, from 0, in \
+         `drawn_objects`.",
+        |open, arguments| {
+            let layers = arguments.whole(0, 0, MAX_LAYERS as i64)? as u32;
+            of_geometry(open, "layers", |geometry| geometry.layers = layers)
         },
     );
     method(

@@ -9,6 +9,7 @@ mod depth;
 mod kinds;
 mod resources;
 mod shader;
+mod shadow;
 mod transfer;
 
 use lightbench_render::Place;
@@ -46,6 +47,13 @@ pub(super) fn register(api: &mut Api) {
     );
     begin(
         api,
+        "shadow(name)",
+        "Adds a pass that draws the depth of everything opaque as lights see it. Say which with \
+         `.views` or `.view_from`.",
+        |_| Ok(PassKind::Shadow(shadow::new())),
+    );
+    begin(
+        api,
         "fullscreen(name)",
         "Adds a pass that draws one triangle over the whole target.",
         |_| Ok(PassKind::Fullscreen),
@@ -69,6 +77,7 @@ pub(super) fn register(api: &mut Api) {
     transfer::register(api);
     again(api);
     shader::register(api);
+    shadow::register(api);
     kinds::register(api);
     compute::register(api);
     resources::register(api);

@@ -6,12 +6,12 @@ mod setters;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::procedural::{self, Arch, ArchedWall, Cloth, Column, MAX_SEGMENTS, Profile};
-use lightbench_assets::{Mesh, MeshId};
+use lightbench_assets::{Mesh, MeshId, Shared};
 use lightbench_world::glam::{UVec2, Vec2, Vec3};
 
 use super::data::{Data, Stage};
-use super::faces;
-use super::recipes::then;
+use super::faces::{self, Corners};
+use super::recipes::MeshRecipe;
 use crate::api::{Api, Arguments, Mistake, ScriptType};
 
 /// The most that a length of a shape may be, in metres.
@@ -64,7 +64,7 @@ enum Kind {
         length: f32,
     },
     Faces {
-        corners: Vec<Vec<Vec3>>,
+        corners: Corners,
     },
     Arch(Arch),
     ArchedWall(ArchedWall),
@@ -149,7 +149,7 @@ struct Plan {
     /// Made at the first use, and shared by all entities that use the shape.
     mesh: Option<MeshId>,
     /// The calls that made it, for files.
-    recipe: Option<String>,
+    recipe: Option<MeshRecipe>,
 }
 
 impl ScriptType for Shape {
@@ -159,11 +159,15 @@ impl ScriptType for Shape {
 impl Shape {
     /// A shape that a call makes.
     fn new(call: &Arguments, kind: Kind) -> Self {
+        let recipe = match &kind {
+            Kind::Faces { corners } => Some(MeshRecipe::Faces(corners.clone(), String::new())),
+            _ => call.spelled().map(MeshRecipe::Calls),
+        };
         Self(Arc::new(Mutex::new(Plan {
             kind,
             repeat: Vec2::ONE,
             mesh: None,
-            recipe: call.spelled(),
+            recipe,
         })))
     }
 
@@ -179,11 +183,9 @@ impl Shape {
         }
         let watch = Arc::clone(&data.watch);
         let mesh = watch.free_of_charge(|| {
-            let mut mesh = plan.kind.build();
-            if plan.repeat != Vec2::ONE {
-                mesh.uvs.iter_mut().for_each(|uv| *uv *= plan.repeat);
-            }
-            mesh
+            let made_of = (&plan.kind, plan.repeat);
+            data.reuse
+                .get("shape", &made_of, || Shared::shared(plan.build()))
         });
         let mesh = data.add_mesh(mesh)?;
         plan.mesh = Some(mesh);
@@ -195,11 +197,19 @@ impl Shape {
 }
 
 impl Plan {
+    fn build(&self) -> Mesh {
+        let mut mesh = self.kind.build();
+        if self.repeat != Vec2::ONE {
+            mesh.uvs.iter_mut().for_each(|uv| *uv *= self.repeat);
+        }
+        mesh
+    }
+
     /// Follows a call that changed the shape: what was drawn with it keeps its mesh, and what
     /// comes gets a new one.
     fn changed(&mut self, call: &Arguments) {
         self.mesh = None;
-        self.recipe = then(self.recipe.take(), call);
+        self.recipe = self.recipe.take().and_then(|recipe| recipe.then(call));
     }
 }
 

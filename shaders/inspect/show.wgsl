@@ -1,8 +1,10 @@
-// Inspect: any target as a picture for people.
+// Inspect: a slice of any target as a picture for people.
 //
-// In:  one target of floats, of integers or of depth; which channels, which range, which map.
+// In:  the target of `lightbench::inspected`; which sample, channels, range and map.
 // Out: display-ready colours. What is not a number is magenta.
 #import lightbench::color
+#import lightbench::color_map
+#import lightbench::inspected
 
 struct Inspection {
     low: f32,       // shown as black
@@ -11,12 +13,11 @@ struct Inspection {
     far: f32,       // metres; infinity is sent as 0
     channels: u32,  // SHOW_…
     map: u32,       // MAP_…
+    slice: i32,     // of a volume
+    sample: i32,    // of a texel with several; below 0: the mean of all
 }
 
 @group(0) @binding(0) var<uniform> inspection: Inspection;
-@group(0) @binding(1) var float_target: texture_2d<f32>;
-@group(0) @binding(2) var uint_target: texture_2d<u32>;
-@group(0) @binding(3) var depth_target: texture_depth_2d;
 
 const SHOW_COLOR: u32 = 4u;     // 0 to 3 are single channels
 
@@ -24,23 +25,11 @@ const MAP_LIGHT: u32 = 0u;      // linear light, coded as sRGB
 const MAP_DATA: u32 = 1u;       // values as they are
 const MAP_FALSE_COLOR: u32 = 2u;
 
-// Rust's numbers for these are in engine/render/src/inspect.rs.
+// Rust's numbers for these are in engine/render/src/inspect/show.rs.
 
 fn is_nan(x: f32) -> bool {
     // Compilers may assume that x != x is false.
     return (bitcast<u32>(x) & 0x7fffffffu) > 0x7f800000u;
-}
-
-// Viridis by N. Smith and S. van der Walt 2015, as a polynomial (M. Zucker, published under CC0).
-fn viridis(t: f32) -> vec3f {
-    let c0 = vec3f(0.27772733, 0.00540734, 0.33409981);
-    let c1 = vec3f(0.10509304, 1.40461353, 1.38459016);
-    let c2 = vec3f(-0.33086183, 0.21484756, 0.09509516);
-    let c3 = vec3f(-4.63423050, -5.79910097, -19.33244096);
-    let c4 = vec3f(6.22826994, 14.17993337, 56.69055260);
-    let c5 = vec3f(4.77638500, -13.74514538, -65.35303263);
-    let c6 = vec3f(-5.43545586, 4.64585261, 26.31243525);
-    return c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * (c5 + t * c6)))));
 }
 
 fn show(value: vec4f) -> vec4f {
@@ -57,7 +46,7 @@ fn show(value: vec4f) -> vec4f {
         case MAP_FALSE_COLOR: {
             // Of a colour, false colours show the luminance (Rec. 709).
             let value = dot(scaled, vec3f(0.2126, 0.7152, 0.0722));
-            return vec4f(saturate(viridis(value)), 1.0);
+            return vec4f(saturate(color_map::viridis(value)), 1.0);
         }
         default: { return vec4f(scaled, 1.0); }
     }
@@ -70,25 +59,20 @@ fn vertex_main(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 }
 
 @fragment
-fn float_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return show(textureLoad(float_target, vec2i(pixel.xy), 0));
-}
-
-@fragment
-fn uint_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return show(vec4f(textureLoad(uint_target, vec2i(pixel.xy), 0)));
-}
-
-@fragment
-fn depth_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let texel = vec3i(vec2i(pixel.xy), inspection.slice);
+    let value = inspected::load_value(texel, inspection.sample);
+#ifdef DEPTH
     // Depth is reversed: 1 at the near plane, 0 at the far one.
-    let depth = textureLoad(depth_target, vec2i(pixel.xy), 0);
-    var inverse = depth;
+    var inverse = value.r;
     if inspection.far > 0.0 {
         let ratio = inspection.near / inspection.far;
-        inverse = ratio + depth * (1.0 - ratio);
+        inverse = ratio + value.r * (1.0 - ratio);
     }
     // Nothing was drawn at infinity: it is as far as the range shows.
     let metres = inspection.near / max(inverse, 1e-12);
     return show(vec4f(vec3f(metres), 1.0));
+#else
+    return show(value);
+#endif
 }
