@@ -7,7 +7,7 @@
 // B are the tangent and what is at right angles to it in the surface. θ is an angle from N. Names
 // say which cosine: n_dot_l is N·L. Callers see to it that all of them but h_dot_t and h_dot_b are at
 // least LEAST_COSINE, where they are divided by. `lighting.wgsl` chooses among the models; the twin
-// of this file is engine/lab/src/reference/brdf.rs.
+// of this file is engine/lab/src/reference/brdf/mod.rs.
 #define_import_path lightbench::brdf
 
 const PI: f32 = 3.14159265;

@@ -1,11 +1,11 @@
 //! All pipelines give the same picture of opaque objects.
 #![allow(clippy::unwrap_used)]
 
-use lightbench::assets::ReflectionModels;
 use lightbench::assets::files::Files;
+use lightbench::assets::{ReflectionModel, ReflectionModels};
 use lightbench::lab::{HdrImage, diff};
 use lightbench::render::TargetImage;
-use lightbench::script::list_pipelines;
+use lightbench::script::{list_pipelines, load_pipeline};
 use lightbench_tests::compare::{
     flip_mean, mean_difference, order_bound, relative_difference, share_beyond,
 };
@@ -25,7 +25,7 @@ enum Surfaces {
     /// In the G-buffer of shaders/lib/g_buffer.wgsl: agrees so with deferred shading, and with
     /// forward shading within the quantisation.
     GBuffer,
-    /// Normal and power in textures, colours in registers: agrees within the quantisation.
+    /// Normal and gloss in textures, colours in registers: agrees within the quantisation.
     Thin,
     /// Fetched for each pixel: agrees with forward shading but for the rounding of what is
     /// interpolated, and for the gradients of textures, which the rasteriser takes as differences
@@ -431,6 +431,23 @@ fn every_shipped_pipeline_is_compared() {
             "{} is not compared with the others",
             pipeline.name
         );
+    }
+}
+
+/// Each pipeline says of each reflection model whether it carries it, and why.
+#[test]
+fn every_shipped_pipeline_tells_of_every_reflection_model() {
+    for pipeline in list_pipelines(&Files::shipped()).unwrap() {
+        let desc = load_pipeline(&Files::shipped(), &pipeline.name, &settings(&[])).unwrap();
+        for model in ReflectionModel::ALL {
+            let told = desc.ability(&format!("brdf_{model}"));
+            let sentence = told.map_or("", |ability| ability.text.as_str());
+            assert!(
+                sentence.ends_with('.'),
+                "{} says nothing of {model}",
+                pipeline.name
+            );
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use lightbench::assets::Reflection;
 use lightbench::assets::files::Files;
 use lightbench::lab::reference::{Surface, evaluate_light};
 use lightbench::render::gpu_data::LightData;
+use lightbench::script::list_pipelines;
 use lightbench_tests::{Studio, settings};
 
 /// Directions along each side of the grid, and pixels along each side of the picture: a pixel is a
@@ -301,6 +302,28 @@ fn no_model_breaks_at_the_edges() {
                     reflection(model, lobe)
                 );
             }
+        }
+    }
+}
+
+/// Heat maps count lights on white, matt surfaces, whatever the material: models must not show.
+#[test]
+fn heat_maps_of_lights_do_not_see_the_model() {
+    let count = |model: &str, pipeline: &str, map: &str| {
+        let mut studio = Studio::new("brdf_spheres", &settings(&["surface=gold", model]));
+        studio.hdr(pipeline, &settings(&[map]), (96, 60)).texels
+    };
+    for pipeline in list_pipelines(&Files::shipped()).unwrap() {
+        let name = &pipeline.name;
+        for map in ["heat_map=lights_evaluated", "heat_map=lights_reaching"] {
+            let all = count("model=all", name, map);
+            assert!(
+                all == count("model=blinn_phong", name, map),
+                "{name} {map}: the models differ"
+            );
+            // The scene has five lights.
+            let most = all.iter().map(|texel| texel[0]).fold(0.0, f32::max);
+            assert_eq!(most, 5.0, "{name} {map}");
         }
     }
 }

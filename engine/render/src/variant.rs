@@ -89,6 +89,8 @@ pub struct Variants(u16);
 impl Variants {
     /// All of them.
     pub const ALL: Self = Self(u16::MAX);
+    /// All that draw the default reflection model.
+    pub const DEFAULT_MODEL: Self = Self((1 << Variant::OTHER_MODEL) - 1);
 
     /// Whether a variant is in the set.
     pub fn contains(self, variant: Variant) -> bool {
@@ -136,6 +138,10 @@ mod tests {
         set.insert(cloth);
         assert!(set.contains(cloth) && !set.contains(mirror));
         assert!(!set.has_other_models() && Variants::ALL.has_other_models());
+        for variant in Variant::all() {
+            let plain = Variants::DEFAULT_MODEL.contains(variant);
+            assert_eq!(plain, !variant.other_model());
+        }
         assert!(Variant::all().all(|variant| Variants::ALL.contains(variant)));
         assert!(!Variants::ALL.without(set).contains(cloth));
         assert_eq!(Variants::ALL.without(set).or(set), Variants::ALL);
