@@ -12,7 +12,7 @@ pub use workshop::Workshop;
 
 use lightbench::assets::files::Files;
 use lightbench::assets::{Assets, MaterialId, Progress, ReflectionModels};
-use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, View};
+use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, Variants, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 
 /// A scene and a device to draw it on.
@@ -74,12 +74,17 @@ impl Studio {
         self.renderer.reset_scene();
     }
 
-    /// A shipped pipeline, or one of the project.
+    /// A shipped pipeline, or one of the project, for the reflection models of the scene.
     pub fn compile(&self, pipeline: &str, settings: &Settings) -> Pipeline {
         let desc = load_pipeline(&self.files, pipeline, settings).unwrap_or_else(|e| panic!("{e}"));
+        let variants = if self.scene.assets.reflection_models().has_others() {
+            Variants::ALL
+        } else {
+            Variants::DEFAULT_MODEL
+        };
         self.renderer
             .compiler()
-            .compile(&self.files, &desc)
+            .compile_for(&self.files, &desc, variants)
             .unwrap_or_else(|e| panic!("{e}"))
     }
 

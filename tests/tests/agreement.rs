@@ -100,7 +100,7 @@ impl Picture {
         accumulation: &str,
     ) -> Self {
         let options = settings(&[options, &[accumulation]].concat());
-        let desc = studio.compile(name, &options).desc;
+        let desc = load_pipeline(&studio.files, name, &options).unwrap();
         let limited = desc.target("over_capacity").is_some();
         let pipeline = if limited {
             studio.draw_whole(name, &options, SIZE).0

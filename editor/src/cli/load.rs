@@ -4,7 +4,7 @@ use std::thread;
 
 use anyhow::{Context as _, anyhow};
 use lightbench::assets::files::Files;
-use lightbench::assets::{Assets, Progress, ReflectionModel};
+use lightbench::assets::{Assets, Progress};
 use lightbench::lab::LdrImage;
 use lightbench::render::{Compiler, Gpu, Pipeline, PipelineDesc, Renderer, Variants, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
@@ -135,7 +135,7 @@ pub fn stage(files: &mut Files, request: &Request, progress: &Progress) -> anyho
         .map(|parameter| parameter.name.as_str());
     scripts.given.check_owners(&scripts.descriptions, names)?;
     tell(files, &mut scene);
-    if scene.has_update() || has_other_models(&scene.assets) {
+    if scene.has_update() || scene.assets.reflection_models().has_others() {
         pipelines = compile(&mut compiler, files, &scripts.descriptions, Variants::ALL)?;
     }
     Ok(Stage {
@@ -163,12 +163,6 @@ fn compile(
             .map_err(|problems| report::problems(files, problems))
     });
     pipelines.collect()
-}
-
-/// Whether a material asks for another reflection model than the default one.
-fn has_other_models(assets: &Assets) -> bool {
-    let mut materials = assets.materials().iter();
-    materials.any(|entry| entry.value.reflection.model() != ReflectionModel::BlinnPhong)
 }
 
 /// Passes on what the scene's script printed, with the warnings of its models.
