@@ -19,6 +19,11 @@ make_archive() {
     mkdir -p "$stage/$name"
     strip -o "$stage/$name/lightbench" "$program"
     cp "$root/README.md" "$root/LICENSE-MIT" "$root/LICENSE-APACHE" "$root/CITATION.cff" "$stage/$name/"
+    # What the README sends a student to, under the same path.
+    mkdir -p "$stage/$name/engine/script"
+    cp -R "$root/engine/script/docs" "$stage/$name/engine/script/docs"
+    find "$stage/$name/engine" -type d -exec chmod 755 {} +
+    find "$stage/$name/engine" -type f -exec chmod 644 {} +
     list_licences >"$stage/$name/THIRD-PARTY.txt"
     chmod 755 "$stage/$name" "$stage/$name/lightbench"
     chmod 644 "$stage/$name"/*.* "$stage/$name"/LICENSE-*

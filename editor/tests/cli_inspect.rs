@@ -132,3 +132,45 @@ fn what_is_not_there_is_said_with_the_way_out() {
     project.run(&[&STEPS[..], &more].concat()).failed(1, &parts);
     assert!(fs::metadata(project.file("x.png")).is_err());
 }
+
+#[test]
+fn a_heat_map_has_a_legend_and_tells_its_mean() {
+    let project = Project::new();
+    let heat = |out: &str, more: &[&str]| {
+        let arguments = [
+            "inspect",
+            "many_lights",
+            "--size",
+            "80x48",
+            "--set",
+            "lights=9",
+        ];
+        let map = [
+            "--pipeline",
+            "forward_single_pass",
+            "--heat-map",
+            "lights_evaluated",
+        ];
+        project.run(&[&arguments[..], &map, &["--out", out], more].concat())
+    };
+    let said = heat("heat.exr", &[]).succeeded().stdout;
+    assert!(said.contains("Lights evaluated: "), "{said}");
+    let values = image::ImageReader::open(project.file("heat.exr")).unwrap();
+    let values = values.decode().unwrap().to_rgb32f();
+    assert_eq!((values.width(), values.height()), (80, 48));
+    let whole = values.pixels().all(|pixel| pixel.0[0].fract() == 0.0);
+    let largest = values.pixels().map(|pixel| pixel.0[0]).fold(0.0, f32::max);
+    // Nine lights, and the two that reach everything.
+    assert!(whole && largest > 1.0 && largest <= 11.0, "{largest}");
+
+    heat("heat.png", &["--range", "0,8"]).succeeded();
+    let picture = image::ImageReader::open(project.file("heat.png")).unwrap();
+    assert!(
+        picture.decode().unwrap().height() > 48,
+        "the legend is below"
+    );
+    heat("heat.png", &["--target", "hdr"]).failed(2, &["--heat-map", "--target"]);
+    let wrong = ["inspect", "tiny", "--heat-map", "warm", "--out", "heat.png"];
+    let mistake = "`heat_map` takes one of `off`, `overdraw`";
+    project.run(&wrong).failed(1, &[mistake]);
+}

@@ -194,6 +194,7 @@ fn every_command_explains_itself_with_examples() {
         "list",
         "new",
         "copy",
+        "docs",
         "check-pipeline",
         "doctor",
         "bench",

@@ -18,6 +18,7 @@ const SLICES: u32 = #{SLICES}u;
 // Where the last slice would begin if the far plane were farther: it takes all that lies beyond.
 const FARTHEST: f32 = 10000.0;
 
+// Where the slices end: at the far plane, or at FARTHEST where that is nearer.
 fn far_end() -> f32 {
     return min(scene::frame.far, FARTHEST);
 }
@@ -33,6 +34,7 @@ fn slice_start(slice: u32) -> f32 {
     return near * pow(far_end() / near, f32(slice) / f32(SLICES));
 }
 
+// The slice at a distance along the view.
 fn slice_of(view_distance: f32) -> u32 {
     let near = scene::frame.near;
     let share = log(max(view_distance, near) / near) / log(far_end() / near);

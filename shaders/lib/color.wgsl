@@ -10,6 +10,7 @@ const CURVE_REINHARD: u32 = 1u;
 const CURVE_HEJL: u32 = 2u;
 const CURVE_LINEAR: u32 = 3u;
 
+// The exact sRGB code of linear values (IEC 61966-2-1).
 fn encode_srgb(color: vec3f) -> vec3f {
     let low = color * 12.92;
     let high = 1.055 * pow(max(color, vec3f(1e-8)), vec3f(1.0 / 2.4)) - 0.055;
@@ -32,6 +33,7 @@ fn hable_curve(x: vec3f) -> vec3f {
     return (x * (A * x + C * B) + D * E) / (x * (A * x + B) + D * F) - E / F;
 }
 
+// The same, scaled so that 11.2 becomes 1.
 fn tone_hable(color: vec3f) -> vec3f {
     return hable_curve(color) / hable_curve(vec3f(11.2));
 }
@@ -44,6 +46,7 @@ fn tone_hejl(color: vec3f) -> vec3f {
     return pow(coded, vec3f(2.2));
 }
 
+// One of the curves by its number, cut off at 0 and 1.
 fn tone_map(color: vec3f, curve: u32) -> vec3f {
     var mapped = color;
     switch curve {

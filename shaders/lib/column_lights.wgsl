@@ -16,6 +16,7 @@ const THREADS: u32 = 64u;
 
 var<workgroup> column_mask: array<atomic<u32>, WORDS>;
 
+// Tests the lights from `first` on. Afterwards `mask` tells.
 fn find(thread: u32, first: u32, sides: culling::Sides) {
     workgroupBarrier();
     for (var word = thread; word < WORDS; word += THREADS) {
@@ -31,11 +32,13 @@ fn find(thread: u32, first: u32, sides: culling::Sides) {
     workgroupBarrier();
 }
 
+// The sphere around a light.
 fn sphere(light: u32) -> culling::Sphere {
     let ball = light_spheres[light];
     return culling::Sphere(ball.xyz, ball.w);
 }
 
+// A word of the mask: bit i of word w is the light first + 32 w + i.
 fn mask(word: u32) -> u32 {
     return atomicLoad(&column_mask[word]);
 }

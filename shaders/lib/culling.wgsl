@@ -96,6 +96,7 @@ fn rectangle_sides(from_pixel: vec2f, to_pixel: vec2f, resolution: vec2f) -> Sid
     );
 }
 
+// Whether a ball meets what lies between the four planes.
 fn meets_sides(ball: Sphere, sides: Sides) -> bool {
     let reach = -ball.radius;
     return dot(sides.left, ball.center) >= reach

@@ -31,6 +31,7 @@ struct GBuffer {
     @location(4) model: u32,
 }
 
+// The texels of a surface.
 fn pack(s: surface::Surface) -> GBuffer {
     let normal = normals::encode_octahedral(s.normal);
     let gloss = pack_gloss(s.model, s.lobe);

@@ -23,6 +23,7 @@ struct VertexOutput {
     @location(4) @interpolate(flat) drawn: u32, // index in scene::drawn_objects
 }
 
+// What the shipped vertex stage does: a vertex of the drawn object, in the world and on the screen.
 fn transform_vertex(vertex: Vertex, drawn: u32) -> VertexOutput {
     let instance = scene::instances[scene::drawn_objects[drawn].instance];
     var out: VertexOutput;

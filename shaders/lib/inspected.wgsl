@@ -1,8 +1,9 @@
 // One slice of a target that is looked at, whatever its texels are.
 //
-// In:  group 0, binding 1: the target. One of UNSIGNED, SIGNED and DEPTH says what its texels are;
-//      without them they are floats. VOLUME says that it is 3D, SAMPLES that each texel has several.
+// In:  group 0, binding 1: the target. One of FLOAT, UNSIGNED, SIGNED and DEPTH says what its texels
+//      are. VOLUME says that it is 3D, SAMPLES that each texel has several.
 // Out: texels as numbers for people, or as bits for exact copies.
+// For the program's own look into targets. Passes of a pipeline have the scene in group 0.
 #define_import_path lightbench::inspected
 
 #ifdef DEPTH

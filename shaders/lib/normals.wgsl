@@ -6,6 +6,7 @@
 // Vectors", JCGT 3(2), section 3.2.
 #define_import_path lightbench::normals
 
+// Two whole numbers from 0 to 65535 for a unit vector.
 fn encode_octahedral(normal: vec3f) -> vec2u {
     let n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
     var square = n.xy;
@@ -17,6 +18,7 @@ fn encode_octahedral(normal: vec3f) -> vec2u {
     return vec2u(round((square * 0.5 + 0.5) * 65535.0));
 }
 
+// The unit vector of two such numbers.
 fn decode_octahedral(encoded: vec2u) -> vec3f {
     let square = vec2f(encoded) / 65535.0 * 2.0 - 1.0;
     var n = vec3f(square, 1.0 - abs(square.x) - abs(square.y));

@@ -1,8 +1,9 @@
 // What `shadow` passes drew, for shaders that look it up.
 //
-// In:  the buffers that a shader gets by declaring them in group 1:
-//        var<storage, read> shadow_views: array<shadow::ShadowView>;   all views of the frame
-//        var<storage, read> light_shadows: array<u32>;                 of each light the first view
+// In:  the buffers `shadow_views`, all views of the frame, and `light_shadows`, of each light the
+//      first of them. A shader gets them by declaring them in group 1:
+//      `var<storage, read> shadow_views: array<shadow::ShadowView>;` and
+//      `var<storage, read> light_shadows: array<u32>;`.
 // Out: where a point lies in a view's picture.
 // Follows Williams 1978, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 12(3): depth from the
 // light decides. How to filter the answer is the shader's business.

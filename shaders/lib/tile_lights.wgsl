@@ -35,6 +35,7 @@ struct DepthRange {
     farthest: f32,
 }
 
+// Begins a tile.
 fn reset(thread: u32) {
     if thread == 0u {
         atomicStore(&nearest_bits, 0x7f7fffffu);

@@ -21,19 +21,23 @@ fn wrap(value: vec3i) -> vec3i {
     return ((value % CELLS) + CELLS) % CELLS;
 }
 
+// The cell of a position, before the grid repeats itself.
 fn coordinates(position: vec3f, cell_size: f32) -> vec3i {
     return vec3i(floor(position / cell_size));
 }
 
+// Cells of the grid.
 fn cell_count() -> u32 {
     return u32(CELLS.x * CELLS.y * CELLS.z);
 }
 
+// The number of the cell that holds a position.
 fn cell_index(position: vec3f, cell_size: f32) -> u32 {
     let cell = vec3u(wrap(coordinates(position, cell_size)));
     return (cell.y * u32(CELLS.z) + cell.z) * u32(CELLS.x) + cell.x;
 }
 
+// The cell of such a number.
 fn cell_of_index(index: u32) -> vec3i {
     let across = u32(CELLS.x);
     let deep = u32(CELLS.z);

@@ -116,6 +116,10 @@ fn spot_lights_look_along_their_cones_and_those_without_a_layer_are_counted() {
     );
     let stage = Stage::draw(&scene, &body, &[], &View::default(), 8);
     assert_eq!(stage.unplaced[0], 1, "three spots, two layers");
+    assert_eq!(
+        stage.pipeline.desc.passes[0].unplaced_in_words().as_deref(),
+        Some("Lights that `spots` had no layer for")
+    );
     let a = stage.layer("map", 0);
     assert!((texel(&a, 16, 16) - perspective(5.0, 0.5, 9.0)).abs() < 1e-5);
     let b = stage.layer("map", 1);

@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let found = diff_files(&arguments.reference, &arguments.test, options)?;
     if let Some(path) = &arguments.heat_map {
-        let picture = heat_map_with_legend(found.map(), ColorMap::Magma);
+        let picture = heat_map_with_legend(found.map(), ColorMap::Magma, 1.0);
         write_atomically(path, &picture.to_png()?)?;
     }
     if arguments.json {

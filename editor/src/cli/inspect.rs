@@ -9,9 +9,12 @@ use lightbench::assets::files::Files;
 use lightbench::assets::images::{save_exr, save_png};
 use lightbench::lab::capture::STEP;
 use lightbench::lab::colormap::ColorMap;
+use lightbench::lab::heatmap::heat_map_with_legend;
 use lightbench::lab::inspect::{FrameInspector, Part};
+use lightbench::lab::metrics::Plane;
 use lightbench::render::description::Slice;
-use lightbench::render::inspect::Aspect;
+use lightbench::render::heat_map::{self, HeatMap};
+use lightbench::render::inspect::{Aspect, part_in_words};
 use lightbench::render::problem::suggestion;
 use lightbench::render::{PipelineDesc, TargetImage};
 
@@ -28,6 +31,7 @@ Examples:
   lightbench inspect atrium --pass g_buffer --target hdr --channel r --range 0,4 --out emitted.png
   lightbench inspect atrium --pixel 320,180
   lightbench inspect my_scene.rhai --pipeline mine.rhai --find-nan
+  lightbench inspect many_lights --pipeline tiled_forward --heat-map lights_evaluated --out heat.png
 
 An EXR holds the values as they are. A PNG shows the range from black to white, or with
 --false-colour in colours. Without --pass it is the last pass that writes the target.")]
@@ -50,8 +54,12 @@ pub struct Arguments {
     /// The target to write to a file
     #[arg(long, value_name = "TARGET", requires = "out")]
     target: Option<String>,
+    /// Count how much work each pixel makes, and write that: overdraw, lights_evaluated,
+    /// lights_reaching or lights_in_vain. A PNG has a legend below it
+    #[arg(long, value_name = "WHAT", requires = "out", conflicts_with_all = ["target", "pixel", "find_nan"])]
+    heat_map: Option<String>,
     /// The file; it ends in .png or .exr
-    #[arg(long, value_name = "FILE", requires = "target")]
+    #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// A mip level of the target
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -68,14 +76,10 @@ pub struct Arguments {
     /// One channel alone: r, g, b or a
     #[arg(long, value_name = "CHANNEL")]
     channel: Option<char>,
-    /// What a PNG shows as black and as white, as in 0,1
-    #[arg(
-        long,
-        value_name = "LOW,HIGH",
-        default_value = "0,1",
-        allow_hyphen_values = true
-    )]
-    range: String,
+    /// What a PNG shows as black and as white; without it 0,1, and of a heat map from 0 to the
+    /// largest count
+    #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true)]
+    range: Option<String>,
     /// Show one channel of a PNG in colours instead of greys
     #[arg(long, visible_alias = "false-color")]
     false_colour: bool,
@@ -97,10 +101,17 @@ pub struct Arguments {
 /// Anything that keeps the frame from being drawn, or a pass or target that is not there.
 pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     let pixel = arguments.pixel.as_deref().map(pair::<u32>).transpose()?;
-    let [low, high] = pair::<f32>(&arguments.range)?;
+    let range = arguments.range.as_deref().map(pair::<f32>).transpose()?;
+    if arguments.out.is_some() && arguments.target.is_none() && arguments.heat_map.is_none() {
+        return Err(Usage(
+            "say what to write to --out: --target NAME or --heat-map WHAT".to_owned(),
+        )
+        .into());
+    }
     if arguments.out.is_none() && pixel.is_none() && !arguments.find_nan {
         return Err(Usage(
-            "say what to look at: --target NAME --out FILE, --pixel X,Y or --find-nan".to_owned(),
+            "say what to look at: --target NAME --out FILE, --heat-map WHAT --out FILE, --pixel X,Y or \
+             --find-nan".to_owned(),
         )
         .into());
     }
@@ -117,9 +128,14 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         .into());
     }
     let progress = Progress::new();
+    let mut scene_arguments = arguments.scene_arguments.clone();
+    if let Some(map) = &arguments.heat_map {
+        let set = &mut scene_arguments.set;
+        set.push(format!("pipeline.{}={map}", heat_map::PARAMETER));
+    }
     let request = Request {
         scene: &arguments.scene,
-        arguments: &arguments.scene_arguments,
+        arguments: &scene_arguments,
         pipelines: std::slice::from_ref(&arguments.pipeline),
         gpu: &arguments.gpu,
     };
@@ -171,8 +187,13 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         };
         let image = inspector.target(pass, target, part)?;
         let channel = arguments.channel.map(channel).transpose()?;
-        save(&image, channel, (low, high), arguments.false_colour, out)?;
+        let range = range.unwrap_or([0.0, 1.0]);
+        save(&image, channel, range, arguments.false_colour, out)?;
         say(out.display().to_string())?;
+    }
+    if let (Some(map), Some(out), Some(counts)) = (HeatMap::of(&desc), &arguments.out, &desc.hdr) {
+        let image = inspector.target(desc.passes.len() - 1, &counts.name, Part::default())?;
+        save_heat_map(map, &image, range.map(|[_, most]| most), out)?;
     }
     if let Some([x, y]) = pixel {
         print_history(&mut inspector, &desc, (x, y))?;
@@ -253,7 +274,7 @@ fn channel(letter: char) -> Result<usize, Usage> {
 fn save(
     image: &TargetImage,
     channel: Option<usize>,
-    (low, high): (f32, f32),
+    [low, high]: [f32; 2],
     false_colour: bool,
     path: &Path,
 ) -> anyhow::Result<()> {
@@ -282,6 +303,41 @@ fn save(
         .collect();
     save_png(path, image.width, image.height, &pixels)?;
     Ok(())
+}
+
+/// Writes counts, and says how many there are.
+fn save_heat_map(
+    map: HeatMap,
+    counts: &TargetImage,
+    most: Option<f32>,
+    path: &Path,
+) -> anyhow::Result<()> {
+    let values: Vec<f32> = counts.texels.iter().map(|texel| texel[0]).collect();
+    let largest = values.iter().copied().fold(0.0, f32::max);
+    let sum: f64 = values.iter().copied().map(f64::from).sum();
+    if path.extension().is_some_and(|ending| ending == "exr") {
+        save(counts, Some(0), [0.0, 1.0], false, path)?;
+    } else {
+        let plane = Plane {
+            width: counts.width as usize,
+            height: counts.height as usize,
+            values,
+        };
+        let scale = most.unwrap_or(largest).max(1.0);
+        let picture = heat_map_with_legend(&plane, ColorMap::Viridis, scale);
+        save_png(
+            path,
+            picture.width,
+            picture.height,
+            &picture.pixels.concat(),
+        )?;
+    }
+    say(path.display().to_string())?;
+    say(format!(
+        "{}: {:.2} a pixel in the mean, {largest} at most",
+        map.title(),
+        sum / counts.texels.len().max(1) as f64
+    ))
 }
 
 /// One line for each pass and what it wrote.
@@ -313,21 +369,4 @@ fn print_history(
         ))?;
     }
     Ok(())
-}
-
-/// What is not the first of its kind, as in ` mip 1 layer 2`.
-fn part_in_words(slice: Slice, sample: Option<u32>, aspect: Aspect) -> String {
-    let mut words = String::new();
-    for (name, number) in [("mip", slice.mip), ("layer", slice.layer)] {
-        if number > 0 {
-            words.push_str(&format!(" {name} {number}"));
-        }
-    }
-    if let Some(sample) = sample {
-        words.push_str(&format!(" sample {sample}"));
-    }
-    if aspect == Aspect::Stencil {
-        words.push_str(" stencil");
-    }
-    words
 }

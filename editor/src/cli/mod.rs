@@ -5,7 +5,9 @@ mod bench;
 mod bench_frame;
 mod check_pipeline;
 mod compare;
+mod copy;
 mod diff;
+mod docs;
 mod doctor;
 mod edit;
 mod faults;
@@ -41,7 +43,8 @@ Start with:
   lightbench edit                                       look round the default scene
   lightbench render atrium --out atrium.png             one picture, without a window
   lightbench compare atrium --out report                which pipeline is faster, and by how much
-  lightbench new my-project                             a place for scenes and shaders of your own
+  lightbench new project my-project                     a place for scenes and shaders of your own
+  lightbench new pipeline mine                          in it: a pipeline of your own, to change
 
 `lightbench help COMMAND` explains a command, with examples.
 The exit status is 0 if all went well, 1 if not, 2 if the command was mistyped."
@@ -70,12 +73,14 @@ enum Command {
     Save(save::Arguments),
     /// Lists pipelines, scenes, adapters or files
     List(list::Arguments),
-    /// Makes a project for scenes, pipelines and shaders of your own
-    New(new::NewArguments),
+    /// Makes a project for scenes, pipelines and shaders of your own, or a pipeline in one
+    New(new::Arguments),
     /// Copies a shipped file into the project, so that it can be edited
-    Copy(new::CopyArguments),
+    Copy(copy::Arguments),
     /// Checks a pipeline and prints every mistake in it
     CheckPipeline(check_pipeline::Arguments),
+    /// Prints the reference of pipeline files or of the shader library
+    Docs(docs::Arguments),
     /// Says what is here, what is missing, and how to mend it
     Doctor,
     /// Measures the program itself
@@ -121,9 +126,10 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),
         Command::List(arguments) => list::run(&arguments, &files()?),
-        Command::New(arguments) => new::new(&arguments),
-        Command::Copy(arguments) => new::copy(&arguments, &files()?),
+        Command::New(arguments) => new::run(&arguments, files),
+        Command::Copy(arguments) => copy::run(&arguments, &files()?),
         Command::CheckPipeline(arguments) => check_pipeline::run(&arguments, files()?),
+        Command::Docs(arguments) => docs::run(&arguments, &files()?),
         Command::Doctor => doctor::run(&files()?),
         Command::Bench(arguments) => bench::run(&arguments, files),
     }

@@ -83,6 +83,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 5] = [
             &[
                 entry(Action::Toggle(Panel::Passes), "Passes", None),
                 entry(Action::Toggle(Panel::Targets), "Targets", None),
+                entry(Action::Toggle(Panel::Pixel), "Pixel", None),
                 entry(Action::Toggle(Panel::Pipeline), "Pipeline parameters", None),
                 entry(Action::Toggle(Panel::Scene), "Scene parameters", None),
                 entry(Action::Toggle(Panel::Log), "Log", None),

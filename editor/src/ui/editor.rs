@@ -21,6 +21,8 @@ pub struct Editor {
     pub(super) layout: Tree<Panel>,
     pub(super) passes: PassesPanel,
     pub(super) targets: TargetsPanel,
+    /// A panel to show before those that share its place, once all are drawn.
+    pub(super) bring: Option<Panel>,
     pub(super) hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
@@ -37,6 +39,7 @@ impl Editor {
             layout: layout::first(),
             passes: PassesPanel::default(),
             targets: TargetsPanel::default(),
+            bring: None,
             hint: true,
             help: false,
             about: false,
@@ -74,6 +77,11 @@ impl Editor {
                 self.layout = tree;
             }
         });
+        // A panel that somebody has hidden stays so.
+        let brought = self.bring.take();
+        if let Some(panel) = brought.filter(|panel| layout::is_visible(&self.layout, *panel)) {
+            layout::set_visible(&mut self.layout, panel, true);
+        }
         panels::help::show(self, &ctx);
 
         if let Some(due) = self.workbench.next_due(now) {
@@ -146,6 +154,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
         let ui = &mut ui;
         match panel {
             Panel::Targets => panels::targets::show(self.editor, ui),
+            Panel::Pixel => panels::pixel::show(self.editor, ui),
             Panel::Passes => panels::passes::show(self.editor, ui, self.now),
             Panel::Pipeline => panels::parameters::pipeline(self.editor, ui),
             Panel::Scene => panels::parameters::scene(self.editor, ui),

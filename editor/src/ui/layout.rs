@@ -9,6 +9,8 @@ pub enum Panel {
     Viewport,
     /// Any target of any pass.
     Targets,
+    /// What each pass does to a pixel.
+    Pixel,
     /// The passes and their cost.
     Passes,
     /// Parameters of the pipeline.
@@ -25,6 +27,7 @@ impl Panel {
         match self {
             Self::Viewport => "Viewport",
             Self::Targets => "Targets",
+            Self::Pixel => "Pixel",
             Self::Passes => "Passes",
             Self::Pipeline => "Pipeline",
             Self::Scene => "Scene",
@@ -47,7 +50,7 @@ pub fn first() -> Tree<Panel> {
     let log = tabs(&[Panel::Log]);
     let parameters = tabs(&[Panel::Pipeline, Panel::Scene]);
     let passes = tabs(&[Panel::Passes]);
-    let targets = tabs(&[Panel::Targets]);
+    let targets = tabs(&[Panel::Targets, Panel::Pixel]);
     let left = split(
         &mut tiles,
         LinearDir::Vertical,

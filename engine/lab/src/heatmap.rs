@@ -39,11 +39,11 @@ pub fn round_scale(largest: f32) -> f32 {
         .unwrap_or(1.0)
 }
 
-/// Paints a map with a legend below it: a bar from 0 at the left to 1 at the right with a tick at
-/// each tenth and the numbers 0, 0.5 and 1. For files that are looked at alone. Maps narrower than
-/// 64 pixels get no legend: it could not be read.
-pub fn heat_map_with_legend(map: &Plane, colors: ColorMap) -> LdrImage {
-    let plain = heat_map(map, colors, 1.0);
+/// Paints a map with a legend below it: a bar from 0 at the left to `scale` at the right with a tick at
+/// each tenth, and numbers at the ends and in the middle. For files that are looked at alone. Maps
+/// narrower than 64 pixels get no legend: it could not be read.
+pub fn heat_map_with_legend(map: &Plane, colors: ColorMap, scale: f32) -> LdrImage {
+    let plain = heat_map(map, colors, scale);
     if plain.width < 64 {
         return plain;
     }
@@ -72,14 +72,12 @@ pub fn heat_map_with_legend(map: &Plane, colors: ColorMap) -> LdrImage {
         }
     }
     let baseline = top + BAR_HEIGHT + 4;
+    let (half, whole) = (short(scale / 2.0), short(scale));
     write_number(&mut canvas, left, baseline, "0");
-    write_number(
-        &mut canvas,
-        (left + right) / 2 - text_width("0.5") / 2,
-        baseline,
-        "0.5",
-    );
-    write_number(&mut canvas, right + 1 - text_width("1"), baseline, "1");
+    let middle = (left + right) / 2 - text_width(&half) / 2;
+    write_number(&mut canvas, middle, baseline, &half);
+    let last = right + 1 - text_width(&whole);
+    write_number(&mut canvas, last, baseline, &whole);
     canvas
 }
 
@@ -87,12 +85,25 @@ const INK: [u8; 4] = [0, 0, 0, 255];
 const DIGIT_WIDTH: u32 = 3;
 const DIGIT_HEIGHT: u32 = 5;
 
-/// Three by five dots for the few characters of the legend, one row a number, high bit left.
+/// A number in few characters.
+fn short(number: f32) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Three by five dots for the characters of numbers, one row a number, high bit left.
 fn glyph(character: char) -> [u8; DIGIT_HEIGHT as usize] {
     match character {
         '0' => [0b111, 0b101, 0b101, 0b101, 0b111],
         '1' => [0b010, 0b110, 0b010, 0b010, 0b111],
+        '2' => [0b111, 0b001, 0b111, 0b100, 0b111],
+        '3' => [0b111, 0b001, 0b111, 0b001, 0b111],
+        '4' => [0b101, 0b101, 0b111, 0b001, 0b001],
         '5' => [0b111, 0b100, 0b111, 0b001, 0b111],
+        '6' => [0b111, 0b100, 0b111, 0b101, 0b111],
+        '7' => [0b111, 0b001, 0b010, 0b010, 0b010],
+        '8' => [0b111, 0b101, 0b111, 0b101, 0b111],
+        '9' => [0b111, 0b101, 0b111, 0b001, 0b111],
         _ => [0b000, 0b000, 0b000, 0b000, 0b010],
     }
 }
@@ -137,7 +148,7 @@ mod tests {
     #[test]
     fn legend_runs_from_the_first_to_the_last_colour() {
         let map = Plane::from_index(100, 20, |i| (i % 100) as f32 / 99.0);
-        let image = heat_map_with_legend(&map, ColorMap::Viridis);
+        let image = heat_map_with_legend(&map, ColorMap::Viridis, 1.0);
         assert_eq!(
             (image.width, image.pixels.len()),
             (100, (100 * image.height) as usize)
@@ -153,10 +164,27 @@ mod tests {
     }
 
     #[test]
+    fn the_legend_says_the_scale() {
+        assert_eq!(
+            (short(0.5), short(12.0)),
+            ("0.5".to_owned(), "12".to_owned())
+        );
+        let map = Plane::from_index(80, 1, |i| i as f32);
+        let ink = |scale: f32| {
+            let image = heat_map_with_legend(&map, ColorMap::Viridis, scale);
+            image.pixels.iter().filter(|pixel| **pixel == INK).count()
+        };
+        // 0, 4 and 8 against 0, 0.5 and 1: dots of the glyphs counted by hand; the ticks are equal.
+        let ticks = 11 * 3;
+        assert_eq!(ink(8.0), ticks + 12 + 9 + 13);
+        assert_eq!(ink(1.0), ticks + 12 + (12 + 1 + 11) + 8);
+    }
+
+    #[test]
     fn small_maps_have_no_legend() {
         let map = Plane::from_index(1, 1, |_| 0.0);
         assert_eq!(
-            heat_map_with_legend(&map, ColorMap::Magma).pixels,
+            heat_map_with_legend(&map, ColorMap::Magma, 1.0).pixels,
             [[0, 0, 4, 255]]
         );
     }

@@ -2,23 +2,24 @@
 //!
 //! Lights are counted by the pipeline's own passes, in which each light adds 1 in place of its
 //! radiance (see `shaders/lib/lighting.wgsl`), so the count is of what the pipeline does and not of
-//! what it should do. Fragments are counted by its geometry passes, each of which adds 1 to a target
-//! of counts in place of what it writes.
+//! what it should do. Fragments are counted by a twin of each geometry pass, which runs before it and
+//! adds 1 to a target of counts in place of what the pass writes (see `fragment_counts`).
 
 use std::collections::BTreeSet;
 
 use crate::description::{
     Blend, ColorAttachment, Define, DrawList, Load, Named, Parameter, ParameterKind,
-    ParameterValue, PassDesc, PassKind, PipelineDesc, Read, ShaderDesc, Shape, Slice, TargetDesc,
-    TargetSize,
+    ParameterValue, PassDesc, PassKind, PipelineDesc, Read, ShaderDesc, Shape, Slice, StencilClear,
+    TargetDesc, TargetSize,
 };
 use crate::format::Format;
+use crate::fragment_counts::COUNT_FRAGMENTS;
 use crate::life;
 use crate::problem::{Place, Problem};
 
 /// The parameter that every pipeline has: which heat map takes the place of the picture.
 pub const PARAMETER: &str = "heat_map";
-/// The parameter that it has while it shows one: the count that is shown brightest.
+/// Another that every pipeline has: the count that a heat map shows brightest.
 pub const MOST: &str = "heat_map_most";
 
 /// The define that makes shaders count lights; its value says which.
@@ -26,7 +27,6 @@ const COUNT_LIGHTS: &str = "COUNT_LIGHTS";
 const PICTURE: &str = "heat_map_picture";
 const OVERDRAW: &str = "heat_map_overdraw";
 const SHOW_SHADER: &str = "shaders/heat_map/show.wgsl";
-const FRAGMENT_SHADER: &str = "shaders/heat_map/count_fragments.wgsl";
 const ADD_SHADER: &str = "shaders/heat_map/add_counts.wgsl";
 
 /// What a heat map counts in each pixel. Half floats hold the counts: exactly up to 2048.
@@ -95,7 +95,8 @@ impl HeatMap {
         Parameter {
             name: MOST.to_owned(),
             at,
-            description: "The count that is shown brightest; pixels with more are white".to_owned(),
+            description: "The count that a heat map shows brightest; pixels with more are white"
+                .to_owned(),
             unit: String::new(),
             kind: ParameterKind::Number {
                 min: 1.0,
@@ -199,48 +200,40 @@ fn can_count(format: Format) -> bool {
     name.ends_with("16float") || name.ends_with("32float")
 }
 
-/// Makes geometry passes count their fragments. Gives the target with the counts.
+/// Puts before each geometry pass one that counts its fragments. Gives the target with the counts.
 fn count_fragments(desc: &mut PipelineDesc) -> String {
     let at = desc.file.clone();
-    // Counters and growing buffers belong to passes that go.
-    desc.counters.clear();
-    desc.buffers.clear();
-    desc.passes.retain(|pass| match &pass.kind {
-        PassKind::Geometry(_) | PassKind::Clear => true,
-        _ => masks(pass),
-    });
+    // Targets of counts, one for each size and number of samples of a picture.
     let mut groups: Vec<(TargetSize, u32)> = Vec::new();
-    let targets = desc.targets.clone();
-    let mut passes = Vec::new();
     for mut pass in std::mem::take(&mut desc.passes) {
-        if matches!(pass.kind, PassKind::Clear) {
-            pass.updates.clear();
-            if pass.colors.is_empty() && pass.depth.is_none() {
-                continue;
+        if let Some(group) = pictured(&pass, &desc.targets) {
+            let known = groups.iter().position(|known| *known == group);
+            let index = known.unwrap_or(groups.len());
+            if known.is_none() {
+                groups.push(group);
             }
-        }
-        if let Some(group) = pictured(&pass, &targets) {
-            let index = groups.iter().position(|known| *known == group);
-            let load = match index {
+            let load = match known {
                 Some(_) => Load::Keep,
                 None => Load::Clear([0.0; 4]),
             };
-            let index = index.unwrap_or(groups.len());
-            if index == groups.len() {
-                groups.push(group);
+            desc.passes
+                .push(counting(&pass, &name_of(index), load, group.1 > 1));
+            // What it cleared is cleared.
+            if let Some(depth) = &mut pass.depth {
+                depth.load = Load::Keep;
+                if let Some(stencil) = &mut depth.stencil {
+                    stencil.load = StencilClear::Keep;
+                }
             }
-            count_in(&mut pass, &name_of(index), load, group.1 > 1, &at);
         }
-        passes.push(pass);
+        desc.passes.push(pass);
     }
-    desc.passes = passes;
     for (index, (size, samples)) in groups.iter().enumerate() {
-        let name = name_of(index);
-        let mut target = TargetDesc::new(name.clone(), at.clone(), half_float());
+        let mut target = TargetDesc::new(name_of(index), at.clone(), half_float());
         target.size = *size;
         if *samples > 1 {
             let mut sampled = target.clone();
-            sampled.name = samples_of(&name);
+            sampled.name = samples_of(&target.name);
             sampled.samples = *samples;
             desc.targets.push(sampled);
         }
@@ -248,11 +241,17 @@ fn count_fragments(desc: &mut PipelineDesc) -> String {
     }
     // A pipeline's linear target has four channels.
     let total = Format(wgpu::TextureFormat::Rgba16Float);
-    let total = TargetDesc::new(OVERDRAW, at.clone(), total);
-    desc.targets.push(total);
+    desc.targets
+        .push(TargetDesc::new(OVERDRAW, at.clone(), total));
+    let mut clear = PassDesc::new(OVERDRAW, at.clone(), PassKind::Clear);
+    clear.colors.push(ColorAttachment {
+        load: Load::Clear([0.0; 4]),
+        ..ColorAttachment::new(OVERDRAW, at.clone())
+    });
+    desc.passes.push(clear);
     for index in 0..groups.len() {
         let name = name_of(index);
-        let mut add = PassDesc::new(format!("add {name}"), at.clone(), PassKind::Fullscreen);
+        let mut add = PassDesc::new(format!("add_{name}"), at.clone(), PassKind::Fullscreen);
         add.shader = Some(plain_shader(ADD_SHADER, &at));
         add.reads.push(Read {
             variable: "counts".to_owned(),
@@ -260,32 +259,11 @@ fn count_fragments(desc: &mut PipelineDesc) -> String {
         });
         add.colors.push(ColorAttachment {
             blend: Blend::Add,
-            load: if index == 0 {
-                Load::Clear([0.0; 4])
-            } else {
-                Load::Keep
-            },
             ..ColorAttachment::new(OVERDRAW, at.clone())
         });
         desc.passes.push(add);
     }
-    if groups.is_empty() {
-        let mut clear = PassDesc::new("no fragments", at.clone(), PassKind::Clear);
-        clear.colors.push(ColorAttachment {
-            load: Load::Clear([0.0; 4]),
-            ..ColorAttachment::new(OVERDRAW, at)
-        });
-        desc.passes.push(clear);
-    }
     OVERDRAW.to_owned()
-}
-
-/// Whether a pass that draws no objects writes depth or stencil, which may limit what others draw.
-fn masks(pass: &PassDesc) -> bool {
-    let depth = pass.depth.as_ref();
-    matches!(pass.kind, PassKind::Fullscreen)
-        && depth
-            .is_some_and(|depth| depth.write || depth.stencil.as_ref().is_some_and(|s| s.writes()))
 }
 
 /// The size and samples of what a geometry pass draws colours to, where that is a picture of the
@@ -301,29 +279,29 @@ fn pictured(pass: &PassDesc, targets: &[TargetDesc]) -> Option<(TargetSize, u32)
     (whole && relative).then_some((target.size, target.samples))
 }
 
-/// Turns a geometry pass into one that counts.
-fn count_in(pass: &mut PassDesc, target: &str, load: Load, sampled: bool, at: &Place) {
-    if let PassKind::Geometry(geometry) = &mut pass.kind {
-        geometry.pull_vertices = false;
-        geometry.layers = 0;
+/// The pass that counts the fragments of a geometry pass, which comes after it: it tests and writes
+/// the same depth, and discards the same fragments.
+fn counting(pass: &PassDesc, target: &str, load: Load, sampled: bool) -> PassDesc {
+    let mut counting = pass.clone();
+    counting.name = format!("count_{}", pass.name);
+    if let Some(shader) = &mut counting.shader {
+        shader.defines.push(Define::flag(COUNT_FRAGMENTS));
     }
-    pass.shader = Some(plain_shader(FRAGMENT_SHADER, at));
-    pass.reads.clear();
-    pass.updates.clear();
     let name = if sampled {
         samples_of(target)
     } else {
         target.to_owned()
     };
-    pass.colors = vec![ColorAttachment {
+    counting.colors = vec![ColorAttachment {
         load,
         blend: Blend::Add,
         resolve: sampled.then(|| Named {
             name: target.to_owned(),
-            at: at.clone(),
+            at: pass.at.clone(),
         }),
-        ..ColorAttachment::new(name, at.clone())
+        ..ColorAttachment::new(name, pass.at.clone())
     }];
+    counting
 }
 
 fn name_of(group: usize) -> String {

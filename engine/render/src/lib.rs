@@ -13,6 +13,7 @@ pub mod description;
 pub mod engine_buffers;
 pub mod fallback;
 pub mod format;
+mod fragment_counts;
 pub mod frame;
 pub mod gpu;
 pub mod gpu_data;

@@ -256,7 +256,8 @@ impl ShaderComposer {
 
         match &error.inner {
             ComposerErrorInner::WgslParseError(parse) => {
-                let label = parse.labels().next();
+                // What naga made itself, such as a conversion, has no place in the text.
+                let label = parse.labels().find(|(span, _)| span.is_defined());
                 let at = start(label.as_ref().and_then(|(span, _)| span.to_range()));
                 let detail = label
                     .map(|(_, text)| text.to_owned())

@@ -202,6 +202,22 @@ fn every_mistake_in_a_shader_is_named_with_line_and_column() {
         ),
         ("hdr", "hdt", "the pass `extra` gives the shader no `hdt`"),
         (
+            "@fragment\nfn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {\n",
+            "@group(1) @binding(1) var<storage, read> mesh_position: array<f32>;\n@fragment\n\
+             fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {\n\
+             _ = mesh_position[0];\n",
+            "help: did you mean `mesh_positions`?",
+        ),
+        // A layer where the texture has none stands in the place of the depth.
+        (
+            "@fragment\nfn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {\n",
+            "@group(1) @binding(1) var depth: texture_depth_2d;\n\
+             @group(1) @binding(2) var depth_sampler: sampler_comparison;\n@fragment\n\
+             fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {\n\
+             _ = textureSampleCompareLevel(depth, depth_sampler, pixel.xy, 1u, 0.5);\n",
+            ":6:63: automatic conversions",
+        ),
+        (
             "fragment_main",
             "fragment_man",
             "the shader has no `fragment_main`",

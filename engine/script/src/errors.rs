@@ -202,6 +202,11 @@ impl Explainer<'_> {
                 "the module `{module}` has no function `{name}` with {}",
                 arguments(kinds.len())
             ));
+            let forms = self.sources.forms(name).into_iter();
+            let forms: Vec<String> = forms.map(|form| format!("{module}::{form}")).collect();
+            if !forms.is_empty() {
+                return mistake.with_hint(written(&forms));
+            }
             return match suggestion(name, own.iter().map(String::as_str)) {
                 Some(hint) => mistake.with_hint(hint),
                 None => mistake,

@@ -100,9 +100,14 @@ impl Host {
             .files
             .read_text(path)
             .map_err(|error| Problem::new(Place::file(path), error.to_string()))?;
+        self.compile(path, &text)
+    }
+
+    /// Compiles a text as if it were that file.
+    pub(crate) fn compile(&self, path: &str, text: &str) -> Result<Arc<AST>, Problem> {
         self.resolver.begin(path);
         self.compiler
-            .compile(&self.engine, path, &text)
+            .compile(&self.engine, path, text)
             .map_err(|error| self.compiler.explain(&error, path))
     }
 

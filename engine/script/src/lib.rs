@@ -27,10 +27,12 @@ mod names;
 mod noise;
 mod pipeline;
 mod random;
+pub mod reference;
 mod resolver;
 mod scene;
 mod settings;
 mod sources;
+mod spelling;
 mod syntax;
 #[cfg(test)]
 mod testing;

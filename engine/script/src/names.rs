@@ -15,8 +15,10 @@ pub struct Entry {
     pub arguments: Vec<String>,
     /// Whether it is read (and perhaps written) without parentheses.
     pub property: bool,
-    /// What it does, with units and ranges.
+    /// What it does, with units and defaults.
     pub about: &'static str,
+    /// Under which heading of the reference it belongs; empty where nobody said.
+    pub section: &'static str,
 }
 
 impl Entry {
@@ -41,6 +43,7 @@ impl Entry {
             arguments,
             property,
             about,
+            section: "",
         }
     }
 
@@ -62,6 +65,8 @@ pub struct Names {
     /// Plain functions of Rhai itself.
     builtin: BTreeSet<String>,
     types: Vec<&'static str>,
+    /// The heading of what is added next.
+    section: &'static str,
 }
 
 impl Names {
@@ -72,7 +77,13 @@ impl Names {
     }
 
     pub(crate) fn add(&mut self, entry: Entry) {
-        self.entries.push(entry);
+        let section = self.section;
+        self.entries.push(Entry { section, ..entry });
+    }
+
+    /// Puts what is added from now on under a heading of the reference.
+    pub(crate) fn begin_section(&mut self, title: &'static str) {
+        self.section = title;
     }
 
     pub(crate) fn add_type(&mut self, name: &'static str) {

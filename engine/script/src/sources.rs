@@ -9,8 +9,8 @@ use rhai::{Engine, Token};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Function {
     pub(crate) name: String,
-    /// How many arguments it takes.
-    pub(crate) arguments: usize,
+    /// The names of its arguments.
+    pub(crate) arguments: Vec<String>,
     pub(crate) line: u32,
     pub(crate) column: u32,
 }
@@ -47,7 +47,7 @@ impl Source {
                 match before {
                     Token::Fn => source.functions.push(Function {
                         name: name.to_string(),
-                        arguments: 0,
+                        arguments: Vec::new(),
                         line: position.line().unwrap_or(0) as u32,
                         column: position.position().unwrap_or(0) as u32,
                     }),
@@ -60,7 +60,7 @@ impl Source {
                     }
                     _ if in_arguments => {
                         if let Some(function) = source.functions.last_mut() {
-                            function.arguments += 1;
+                            function.arguments.push(name.to_string());
                         }
                         source.variables.push(name.to_string());
                     }
@@ -116,6 +116,16 @@ impl Sources {
             .collect()
     }
 
+    /// How the functions of a name are called, whichever files they are in: `add(p, hdr)`.
+    pub(crate) fn forms(&self, name: &str) -> Vec<String> {
+        let files = self.lock();
+        let functions = files.values().flat_map(|source| &source.functions);
+        functions
+            .filter(|function| function.name == name)
+            .map(|function| format!("{name}({})", function.arguments.join(", ")))
+            .collect()
+    }
+
     /// The paths of all files.
     pub(crate) fn paths(&self) -> Vec<String> {
         self.lock().keys().cloned().collect()
@@ -138,7 +148,7 @@ mod tests {
         let functions: Vec<_> = source
             .functions
             .iter()
-            .map(|f| (f.name.as_str(), f.arguments, f.line))
+            .map(|f| (f.name.as_str(), f.arguments.len(), f.line))
             .collect();
         assert_eq!(functions, [("update", 2, 3), ("last", 0, 4)]);
         assert_eq!(source.constants, ["C"]);

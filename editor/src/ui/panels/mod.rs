@@ -1,10 +1,12 @@
 //! The panels of the window.
 
+pub mod heat_map;
 pub mod help;
 pub mod log;
 pub mod menu;
 pub mod parameters;
 pub mod passes;
+pub mod pixel;
 pub mod status;
 pub mod targets;
 pub mod toolbar;

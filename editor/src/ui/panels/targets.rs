@@ -2,7 +2,9 @@
 
 use egui::{Color32, DragValue, Rect, RichText, Sense, TextureOptions, Ui, pos2};
 use lightbench::render::PipelineDesc;
-use lightbench::render::inspect::{Channels, ColorMap, Inspection};
+use lightbench::render::description::Shape;
+use lightbench::render::inspect::{Aspect, Channels, ColorMap, Inspection};
+use wgpu::Texture;
 
 use super::widgets::{bytes, combo};
 use crate::ui::editor::Editor;
@@ -50,6 +52,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     });
     choose(panel, ui, &desc, &mut request, far);
     if let Some(request) = &mut request {
+        let texture = workbench.target_texture(&request.target);
+        part(ui, request, &desc, texture.as_ref(), far);
         how(ui, request, &desc, far);
     }
     if request != before {
@@ -125,15 +129,80 @@ fn choose(
     };
 }
 
+/// Which mip level, layer and sample, and whether stencil, where the target has several.
+fn part(
+    ui: &mut Ui,
+    request: &mut Inspection,
+    desc: &PipelineDesc,
+    texture: Option<&Texture>,
+    far: f32,
+) {
+    let Some(target) = desc.target(&request.target) else {
+        return;
+    };
+    let levels = match texture {
+        Some(texture) => texture.mip_level_count(),
+        None => 1,
+    };
+    let layers = target.shape.layers();
+    let stencil = target.format.0.has_stencil_aspect();
+    if levels == 1 && layers == 1 && target.samples == 1 && !stencil {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        let number = |ui: &mut Ui, name: &str, value: &mut u32, count: u32| {
+            if count > 1 {
+                let label = ui.label(name);
+                let field = DragValue::new(value).range(0..=count - 1).speed(0.05);
+                ui.add(field).labelled_by(label.id);
+            }
+        };
+        number(ui, "Mip", &mut request.slice.mip, levels);
+        let name = match target.shape {
+            Shape::Cube => "Side",
+            Shape::Volume(_) => "Slice",
+            Shape::Flat | Shape::Array(_) => "Layer",
+        };
+        number(ui, name, &mut request.slice.layer, layers);
+        if target.samples > 1 {
+            let words = |sample: Option<u32>| match sample {
+                None => "mean of all".to_owned(),
+                Some(sample) => sample.to_string(),
+            };
+            combo(ui, "Sample", &words(request.sample), 80.0, |ui| {
+                for sample in std::iter::once(None).chain((0..target.samples).map(Some)) {
+                    ui.selectable_value(&mut request.sample, sample, words(sample));
+                }
+            });
+        }
+        if stencil {
+            let mut on = request.aspect == Aspect::Stencil;
+            if ui.checkbox(&mut on, "Stencil").changed() {
+                let suited = Inspection::suited(desc, request.pass, &request.target, far);
+                *request = match suited {
+                    Some(depth) if !on => depth,
+                    _ => Inspection {
+                        aspect: Aspect::Stencil,
+                        map: ColorMap::Data,
+                        low: 0.0,
+                        high: 255.0,
+                        ..request.clone()
+                    },
+                };
+            }
+        }
+    });
+}
+
 /// Channels, map and range.
 fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
     let Some(target) = desc.target(&request.target) else {
         return;
     };
-    let depth = target.format.is_depth();
+    let depth = target.format.is_depth() && request.aspect == Aspect::Main;
     let channels = usize::from(target.format.0.components());
     ui.horizontal_wrapped(|ui| {
-        if !depth && channels > 1 {
+        if !target.format.is_depth() && channels > 1 {
             let selected = CHANNELS
                 .iter()
                 .find(|(value, _)| *value == request.channels);

@@ -2,7 +2,7 @@
 
 use egui::{Align, Button, DragValue, Layout, RichText, Ui};
 
-use super::widgets;
+use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
@@ -14,6 +14,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         scene(editor, ui);
         ui.separator();
         pipeline(editor, ui);
+        heat_map::choose(editor, ui);
         ui.separator();
         time(editor, ui);
         ui.separator();

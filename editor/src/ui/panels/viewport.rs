@@ -9,7 +9,9 @@ use egui::{
 use lightbench::render::Problem;
 use lightbench::world::glam::{Vec2, Vec3};
 
+use super::heat_map;
 use crate::ui::editor::Editor;
+use crate::ui::layout::Panel;
 use crate::ui::screen::Place;
 use crate::ui::theme::Palette;
 
@@ -25,6 +27,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Viewport"));
     steer(editor, ui, &response);
+
+    if let Some(at) = response
+        .interact_pointer_pos()
+        .filter(|_| response.clicked())
+    {
+        probe(editor, rect, at);
+    }
 
     let pixels = rect.size() * ui.ctx().pixels_per_point();
     let size = (pixels.x.round() as u32, pixels.y.round() as u32);
@@ -42,6 +51,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         painter.image(id, rect, whole, Color32::WHITE);
     }
 
+    probed_pixel(editor, ui, rect);
+    if let Some(pipeline) = editor.workbench.pipelines.shown_pipeline() {
+        heat_map::legend(ui, rect, &pipeline.desc);
+    }
     problems(editor, ui, rect);
     loading(editor, ui, rect, scale.is_some());
     if let Some(scale) = scale.filter(|scale| *scale < 1.0) {
@@ -50,6 +63,40 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     }
     if editor.hint {
         hint(editor, ui, rect);
+    }
+}
+
+/// Asks what the passes do to the pixel under the pointer.
+fn probe(editor: &mut Editor, rect: Rect, at: Pos2) {
+    let Some((width, height)) = editor.workbench.drawn_size() else {
+        return;
+    };
+    let share = (at - rect.min) / rect.size();
+    let texel = |share: f32, length: u32| ((share * length as f32) as u32).min(length - 1);
+    editor
+        .workbench
+        .probe((texel(share.x, width), texel(share.y, height)));
+    editor.bring = Some(Panel::Pixel);
+}
+
+/// Marks the pixel that was asked for last.
+fn probed_pixel(editor: &Editor, ui: &Ui, rect: Rect) {
+    let workbench = &editor.workbench;
+    let (Some((x, y)), Some((width, height))) = (workbench.probing.pixel, workbench.drawn_size())
+    else {
+        return;
+    };
+    if workbench.pipelines.shown() != Some(workbench.probing.pipeline.as_str()) {
+        return;
+    }
+    let share = vec2(
+        (x as f32 + 0.5) / width as f32,
+        (y as f32 + 0.5) / height as f32,
+    );
+    let center = rect.min + share * rect.size();
+    let painter = ui.painter_at(rect);
+    for (radius, color) in [(6.0, Color32::BLACK), (5.0, Color32::WHITE)] {
+        painter.circle_stroke(center, radius, egui::Stroke::new(1.0, color));
     }
 }
 
@@ -200,6 +247,7 @@ fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     };
     let lines = [
         "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",
+        "Click a pixel to see what each pass does to it.",
         "Keys 1 to 9, [ and ] swap the pipeline; scene, camera and time stay.",
         third,
     ];

@@ -163,7 +163,7 @@ impl Workbench {
         let soon = [
             (ready && self.clock.playing).then_some(soonest),
             (ready && self.canvas.stale && self.canvas.problem.is_none()).then_some(soonest),
-            self.timings.is_waiting().then_some(RESULTS),
+            (self.timings.is_waiting() || self.probing.is_waiting()).then_some(RESULTS),
             (self.scenes.shown().is_some() && self.pipelines.is_warming()).then_some(DEVICE),
             (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
                 .then_some(PROGRESS),

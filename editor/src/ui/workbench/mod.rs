@@ -14,6 +14,7 @@ pub mod fields;
 pub mod library;
 pub mod log;
 pub mod pipelines;
+pub mod probing;
 pub mod resolution;
 pub mod scenes;
 pub mod timing;
@@ -34,6 +35,7 @@ use self::drawing::Canvas;
 use self::library::Library;
 use self::log::{Level, Log};
 use self::pipelines::{News, Pipelines};
+use self::probing::Probing;
 use self::resolution::Resolution;
 use self::scenes::{Loaded, Scenes};
 use self::timing::Timings;
@@ -69,6 +71,8 @@ pub struct Workbench {
     pub timings: Timings,
     /// How many pixels are drawn.
     pub resolution: Resolution,
+    /// What the passes did to a pixel.
+    pub probing: Probing,
 }
 
 impl Workbench {
@@ -105,6 +109,7 @@ impl Workbench {
             camera: CameraRig::default(),
             clock: Clock::default(),
             timings: Timings::default(),
+            probing: Probing::default(),
         };
         this.library.refresh(&this.files, &this.wake);
         this.scenes
@@ -128,6 +133,7 @@ impl Workbench {
             self.wake.clone(),
         );
         self.canvas = Canvas::default();
+        self.probing = Probing::default();
         self.timings.reset();
         self.lost = None;
         self.inspect(request);
@@ -191,6 +197,12 @@ impl Workbench {
     /// What is being looked at.
     pub fn inspection(&mut self) -> Option<inspect::Inspection> {
         self.renderer.inspector().request().cloned()
+    }
+
+    /// The texture of a target of the pipeline on screen.
+    pub fn target_texture(&mut self, name: &str) -> Option<wgpu::Texture> {
+        let targets = self.pipelines.shown_pipeline()?.targets()?;
+        Some(targets.get(name)?.texture.clone())
     }
 
     /// The picture of what is being looked at.
@@ -351,6 +363,7 @@ impl Workbench {
             }
             Err(error) => self.device_failed(error),
         }
+        self.take_probed();
         for warning in self.renderer.take_warnings() {
             self.log.warn(warning);
         }

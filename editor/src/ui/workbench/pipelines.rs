@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use lightbench::assets::files::Files;
+use lightbench::render::heat_map;
 use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems, Variants};
 use lightbench::script::{SettingValue, Settings};
 
@@ -176,13 +177,26 @@ impl Pipelines {
     }
 
     /// Swaps to another pipeline: at once if it was visited, else as soon as it is built and warm.
+    ///
+    /// A heat map stays on when the pipeline changes.
     pub fn select(&mut self, name: &str) {
+        let before = self.slots.get(&self.selected);
+        let heat_map = before.map_or_else(Settings::new, |slot| heat_map_of(&slot.settings));
         self.selected = name.to_owned();
         let slot = self.slots.entry(name.to_owned()).or_default();
-        if slot.pipeline.is_some() {
+        let other = heat_map_of(&slot.settings) != heat_map;
+        if other {
+            let names = [heat_map::PARAMETER, heat_map::MOST].map(str::to_owned);
+            slot.settings = without(&slot.settings, &names);
+            for (name, value) in heat_map.iter() {
+                slot.settings.set(name, value.clone());
+            }
+            // What was built shows something else.
+            slot.stale = true;
+        } else if slot.pipeline.is_some() {
             self.shown = Some(name.to_owned());
         }
-        if (slot.newest().is_none() || slot.stale) && slot.pending.is_none() {
+        if other || (slot.newest().is_none() || slot.stale) && slot.pending.is_none() {
             self.request(name, true);
         }
     }
@@ -296,6 +310,17 @@ impl Pipelines {
             urgent,
         });
     }
+}
+
+/// What settings say of the heat map.
+fn heat_map_of(settings: &Settings) -> Settings {
+    let mut kept = Settings::new();
+    for name in [heat_map::PARAMETER, heat_map::MOST] {
+        if let Some(value) = settings.get(name) {
+            kept.set(name, value.clone());
+        }
+    }
+    kept
 }
 
 /// The settings but for some names.

@@ -38,7 +38,7 @@ pub enum FileError {
     },
     /// Writing without a project.
     #[error(
-        "`{path}` can't be changed without a project; make one with `lightbench new DIR` and work there"
+        "`{path}` can't be written without a project; make one with `lightbench new DIR` and work there"
     )]
     NoProject {
         /// As it was given.

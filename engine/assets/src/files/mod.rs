@@ -291,6 +291,18 @@ impl Files {
         Ok(target)
     }
 
+    /// Writes a new file of the project, whole or not at all, with the folders
+    /// that it needs. Returns where it is.
+    ///
+    /// # Errors
+    /// As [`Files::write`], and a file that is there already, which stays as
+    /// it is.
+    pub fn create(&self, path: &str, bytes: &[u8]) -> Result<PathBuf, FileError> {
+        let target = self.place_in_project(path)?;
+        atomic::write_new(&target, bytes)?;
+        Ok(target)
+    }
+
     /// The folders of granted files, each with what its paths begin with.
     pub(crate) fn granted_folders(&self) -> impl Iterator<Item = (String, &Path)> {
         let grants = self.grants.iter().enumerate();

@@ -24,7 +24,9 @@ const README: &str = "\
 - Delete your copy to have the shipped file again. A new version of Lightbench never changes this
   folder.
 
-Start with `lightbench edit` in this folder, and see `lightbench list scenes`.
+Start with `lightbench edit` in this folder, and see `lightbench list scenes`. `lightbench new pipeline
+mine` makes a pipeline and a shader to change, and `lightbench docs pipelines` tells what else a pipeline
+can say.
 ";
 
 const FOLDERS: [&str; 4] = ["scripts/scenes", "scripts/pipelines", "shaders", "out"];

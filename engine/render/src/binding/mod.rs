@@ -1,64 +1,18 @@
 //! Joins what a pass declares with what its shader asks for.
 
 mod layout;
+mod provided;
 mod stages;
 
 pub use layout::target_layout;
+pub use provided::{EngineBuffer, Provided, provided};
+
+use provided::{ENGINE_BUFFERS, SAMPLERS};
 
 use crate::description::{PassDesc, PipelineDesc, Read, Slice, Update};
 use crate::problem::{Place, Problem, suggestion};
 use crate::reflection::{BindingKind, Reflection, SampleKind, TargetBinding, TextureType};
 use crate::shader::{Shader, place_of};
-
-/// The samplers that a shader gets by declaring a `sampler` of that name in group 1.
-const SAMPLERS: [(&str, Source); 3] = [
-    ("linear_sampler", Source::LinearSampler),
-    ("nearest_sampler", Source::NearestSampler),
-    ("depth_sampler", Source::DepthSampler),
-];
-
-/// The buffers of the engine that a shader gets by declaring a `var<storage>` of that name in group
-/// 1. They are not in group 0 since few passes need them and adapters bind few buffers.
-const ENGINE_BUFFERS: [(&str, EngineBuffer); 6] = [
-    ("mesh_positions", EngineBuffer::MeshPositions),
-    ("mesh_attributes", EngineBuffer::MeshAttributes),
-    ("mesh_groups", EngineBuffer::MeshGroups),
-    ("mesh_indices", EngineBuffer::MeshIndices),
-    ("shadow_views", EngineBuffer::ShadowViews),
-    ("light_shadows", EngineBuffer::LightShadows),
-];
-
-/// A buffer that the engine fills.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EngineBuffer {
-    /// Three floats a vertex, all meshes one after the other.
-    MeshPositions,
-    /// Normal, texture coordinates and tangent of each vertex: nine floats.
-    MeshAttributes,
-    /// The smooth group of each vertex, in a byte: four vertices a word, the first in the lowest
-    /// bits. A mesh of more than 256 groups gives some of them the same number.
-    MeshGroups,
-    /// Indices of all meshes.
-    MeshIndices,
-    /// The views of all `shadow` passes: see `shaders/lib/shadow.wgsl`.
-    ShadowViews,
-    /// Of each light the first of its shadow views.
-    LightShadows,
-}
-
-impl EngineBuffer {
-    /// For messages.
-    pub fn in_words(self) -> &'static str {
-        match self {
-            Self::MeshPositions => "vertex positions",
-            Self::MeshAttributes => "normals, texture coordinates and tangents",
-            Self::MeshGroups => "smooth groups",
-            Self::MeshIndices => "indices",
-            Self::ShadowViews => "shadow views",
-            Self::LightShadows => "numbers of shadow views",
-        }
-    }
-}
 
 /// Where the resource of one binding of group 1 comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,8 +130,8 @@ impl Binder<'_> {
         }
     }
 
-    /// The `.reads` for a variable, or a report.
-    fn read(&mut self, variable: &str) -> Option<&Read> {
+    /// The `.reads` for a variable, or a report. `others` are names that need none.
+    fn read(&mut self, variable: &str, others: &[&str]) -> Option<&Read> {
         let pass = self.pass;
         let found = pass.reads.iter().find(|read| read.variable == variable);
         if found.is_none() {
@@ -190,7 +144,7 @@ impl Binder<'_> {
                 return None;
             }
             let names = pass.reads.iter().map(|read| read.variable.as_str());
-            let hint = suggestion(variable, names)
+            let hint = suggestion(variable, names.chain(others.iter().copied()))
                 .unwrap_or_else(|| format!("add .reads(\"{variable}\") to the pass"));
             self.report(
                 variable,
@@ -221,7 +175,7 @@ impl Binder<'_> {
 
     fn texture(&mut self, variable: &str, texture: TextureType) -> Option<Source> {
         let desc = self.desc;
-        let read = self.read(variable)?.clone();
+        let read = self.read(variable, &[])?.clone();
         let Some(target) = desc.target(&read.target) else {
             if desc.buffer(&read.target).is_some() {
                 self.report(
@@ -341,7 +295,8 @@ impl Binder<'_> {
         let name = if writable {
             self.update(variable)?.target.clone()
         } else {
-            self.read(variable)?.target.clone()
+            let engine = ENGINE_BUFFERS.map(|(name, _)| name);
+            self.read(variable, &engine)?.target.clone()
         };
         if desc.buffer(&name).is_none() {
             if let Some(target) = desc.target(&name) {

@@ -21,6 +21,7 @@ use crate::binding::{bind, target_layout};
 use crate::compiled_pass::CompiledPass;
 use crate::description::{Define, PassDesc, PassKind, PipelineDesc};
 use crate::fallback::settle_formats;
+use crate::fragment_counts::{COUNT_FRAGMENTS, count_fragments};
 use crate::gpu::Gpu;
 use crate::gpu_pipelines::PassPipelines;
 use crate::layout::SceneLayout;
@@ -189,7 +190,10 @@ impl Compiler {
             .map(|name| Define::flag(*name))
             .chain(defines.iter().cloned())
             .collect();
-        let shader = composer.compose(files, path, &defines)?;
+        let mut shader = composer.compose(files, path, &defines)?;
+        if defines.iter().any(|define| define.name == COUNT_FRAGMENTS) {
+            count_fragments(&mut shader.module);
+        }
         let reflection = reflect(&shader.module);
         let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone()));
         let module = self

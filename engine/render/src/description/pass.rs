@@ -1,6 +1,6 @@
 //! Passes: what they draw, with which shader, from what, into what.
 
-use super::{ColorAttachment, DepthAttachment, Shadow, Slice};
+use super::{ColorAttachment, DepthAttachment, Shadow, ShadowViews, Slice};
 use crate::problem::Place;
 
 /// A target or buffer that a pass's shader reads.
@@ -442,7 +442,8 @@ impl PassDesc {
         }
     }
 
-    /// For passes that spread lights over arrays, what [`unplaced_lights`] counts, for people.
+    /// For passes that spread lights over arrays or layers, what [`unplaced_lights`] counts, for
+    /// people.
     ///
     /// [`unplaced_lights`]: crate::PassStatistics::unplaced_lights
     pub fn unplaced_in_words(&self) -> Option<String> {
@@ -451,6 +452,13 @@ impl PassDesc {
                 "Lights that no array of `{}` had room for",
                 self.name
             )),
+            PassKind::Shadow(shadow) => {
+                let what = match shadow.views {
+                    ShadowViews::Lights(_) => "Lights",
+                    ShadowViews::Given(_) => "Views",
+                };
+                Some(format!("{what} that `{}` had no layer for", self.name))
+            }
             _ => None,
         }
     }

@@ -21,7 +21,7 @@ use crate::targets::Targets;
 pub use probe::{Invalid, PixelValue, ProbeRequest, Probed, TexelValue};
 pub use read::read_any;
 pub use show::{Channels, ColorMap, Inspection};
-pub use texels::Aspect;
+pub use texels::{Aspect, part_in_words};
 
 use probe::Prober;
 use show::Shower;

@@ -22,6 +22,23 @@ pub enum Aspect {
     Stencil,
 }
 
+/// Names what is not the first or only one of its kind, as in ` mip 1 layer 2`.
+pub fn part_in_words(slice: Slice, sample: Option<u32>, aspect: Aspect) -> String {
+    let mut words = String::new();
+    for (name, number) in [("mip", slice.mip), ("layer", slice.layer)] {
+        if number > 0 {
+            words.push_str(&format!(" {name} {number}"));
+        }
+    }
+    if let Some(sample) = sample {
+        words.push_str(&format!(" sample {sample}"));
+    }
+    if aspect == Aspect::Stencil {
+        words.push_str(" stencil");
+    }
+    words
+}
+
 /// What the texels of a slice are, and how they are arranged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Texels {

@@ -21,6 +21,7 @@ impl ScriptType for Buffer {
 
 pub(super) fn register(api: &mut Api) {
     api.object::<Buffer>();
+    api.section("Buffers and counters");
     api.method(
         "buffer(name, words)",
         "Declares a buffer of so many 32-bit words. It keeps its contents from frame to frame, and \
@@ -56,7 +57,7 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "per_tile(size)",
-        "Gives the buffer its words for each tile of that many by that many pixels.",
+        "Gives the buffer its words for each tile of that many by that many pixels of the output.",
         |buffer, arguments| {
             buffer.size = BufferSize::PerTile {
                 tile: arguments.whole(0, 1, 1024)? as u32,
@@ -68,7 +69,7 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "per_light()",
-        "Gives the buffer its words for each light of the scene.",
+        "Gives the buffer its words for each light of the scene, and for one more.",
         |buffer, _| {
             buffer.size = BufferSize::PerLight(words(buffer));
             Ok(())
@@ -78,7 +79,7 @@ pub(super) fn register(api: &mut Api) {
         api,
         "grows_with(counter)",
         "Makes the buffer larger, and draws the frame again, when the counter says that it needed \
-         more words than it has.",
+         more words than it has. Without it, a buffer of fixed size stays as it is.",
         |buffer, arguments| {
             buffer.grows_with = Some(Named {
                 name: arguments.text(0)?,
@@ -90,7 +91,8 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "counter(name, buffer, word, description)",
-        "Reads a word of a buffer back after each frame, for reports and the editor.",
+        "Reads a word of a buffer back after each frame, counted from 0, as a whole number for \
+         reports and the editor. It keeps the passes that write the buffer alive.",
         |builder, arguments, at| {
             let counter = Counter {
                 name: arguments.text(0)?,

@@ -95,6 +95,11 @@ impl Pipelines {
         self.made.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Begins anew, for another run.
+    pub(super) fn forget(&self) {
+        self.made().clear();
+    }
+
     fn begin(&self, title: String, at: &Place) -> Pipeline {
         let stem = self.path.rsplit('/').next().unwrap_or_default();
         let desc = PipelineDesc {
@@ -207,8 +212,11 @@ impl Builder {
             .map(|handle| handle.id)
             .ok_or_else(|| {
                 let mistake = Mistake::new(format!("there is no pass `{name}`"));
-                let hint = suggestion(name, names())
-                    .unwrap_or_else(|| format!("there are {}", list(names(), "and")));
+                let all = list(names(), "and");
+                let hint = suggestion(name, names()).unwrap_or_else(|| match all.as_str() {
+                    "" => "there is none yet".to_owned(),
+                    all => format!("there are {all}"),
+                });
                 mistake.with_hint(hint)
             })
     }
@@ -247,8 +255,8 @@ impl Builder {
             desc.parameters.push(parameter);
         };
         add(&mut self.desc, HeatMap::parameter(at.clone()));
+        add(&mut self.desc, HeatMap::most_parameter(at.clone()));
         if let Some(map) = HeatMap::of(&self.desc) {
-            add(&mut self.desc, HeatMap::most_parameter(at.clone()));
             problems.extend(map.apply(&mut self.desc).err());
         }
         problems
@@ -326,21 +334,16 @@ pub(super) fn shader_name(name: &str, what: &str) -> Result<(), Mistake> {
 /// Registers everything that a pipeline file can call.
 pub(super) fn register(api: &mut Api, made: &Pipelines) {
     api.object::<Pipeline>();
+    api.section("Pipelines");
     let (made, imported) = (made.clone(), made.clone());
     api.function(
         "pipeline(title)",
-        "Begins a pipeline. The file's last line gives it back.",
+        "Begins a pipeline. The title is for people: on the command line the pipeline has the name \
+         of its file. The file's last line gives the pipeline back.",
         move |arguments| {
             let title = arguments.text(0)?;
             Ok(made.begin(title, &arguments.place()))
         },
-    );
-    let made = imported;
-    api.function(
-        "derive(title)",
-        "Goes on with the pipeline of the file that was imported last: change its passes with \
-         `.pass`, take some out, insert others.",
-        move |arguments| made.derive(arguments.text(0)?),
     );
     for (form, supported, about) in [
         (
@@ -348,7 +351,7 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
             true,
             "Says that the pipeline can do something, as `transparency` or `msaa`, and how. With \
              `brdf_ggx` and its like it says which reflection models it draws; others give way to the \
-             nearest of these.",
+             nearest of these. Any other name will do; reports list them.",
         ),
         (
             "lacks(ability, reason)",
@@ -384,7 +387,8 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
     method(
         api,
         "hdr(target)",
-        "Names the linear HDR target, before exposure and tone curve.",
+        "Names the target that holds linear light, before exposure and tone curve: EXR files are \
+         made from it, and comparisons measure it. Without it the pipeline makes no EXR files.",
         |builder, arguments, at| {
             let name = arguments.text(0)?;
             builder.desc.hdr = Some(Named { name, at });
@@ -394,7 +398,7 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
     method(
         api,
         "show(target)",
-        "Names the target that the viewport and picture files show.",
+        "Names the target that the viewport and picture files show. Every pipeline has one.",
         |builder, arguments, at| {
             let name = arguments.text(0)?;
             builder.desc.output = Some(Named { name, at });
@@ -405,6 +409,13 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
     targets::register(api);
     buffers::register(api);
     passes::register(api);
+    api.section("Changing another pipeline");
+    api.function(
+        "derive(title)",
+        "Goes on with the pipeline of the file that was imported last: change its passes with \
+         `.pass`, take some out, insert others.",
+        move |arguments| imported.derive(arguments.text(0)?),
+    );
 }
 
 /// Registers a method of the pipeline that gives the pipeline back.

@@ -7,13 +7,16 @@ mod passes;
 mod targets;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::{Files, Origin};
 use lightbench_render::{PipelineDesc, Problem, Problems};
+use rhai::AST;
 
 use crate::host::{Extras, Host, find, stem_in};
 use crate::limits::Limits;
+use crate::names::Names;
 use crate::settings::Settings;
 use builder::Pipelines;
 
@@ -47,19 +50,54 @@ pub fn load_pipeline_within(
     limits: &Limits,
 ) -> Result<PipelineDesc, Problems> {
     let path = find(files, PIPELINES, name_or_path)?;
-    let made = Pipelines::new(&path, settings);
-    let host = Host::new(
-        files,
-        limits,
-        Extras {
-            register: &mut |api, _, _| builder::register(api, &made),
-            globals: Vec::new(),
-            reuse: Reuse::default(),
-        },
-    );
-    let run = |ast: Arc<_>| host.run(&ast, &path, limits.load_time);
-    let result = host.load(&path).and_then(run);
-    made.finish(result, &host.compiler)
+    let workshop = Workshop::new(files, &path, settings, limits);
+    workshop.run(workshop.host.load(&path))
+}
+
+/// What runs a pipeline file.
+pub(crate) struct Workshop {
+    host: Host,
+    made: Pipelines,
+    path: String,
+    load_time: Duration,
+}
+
+impl Workshop {
+    pub(crate) fn new(files: &Files, path: &str, settings: &Settings, limits: &Limits) -> Self {
+        let made = Pipelines::new(path, settings);
+        let host = Host::new(
+            files,
+            limits,
+            Extras {
+                register: &mut |api, _, _| builder::register(api, &made),
+                globals: Vec::new(),
+                reuse: Reuse::default(),
+            },
+        );
+        Self {
+            host,
+            made,
+            path: path.to_owned(),
+            load_time: limits.load_time,
+        }
+    }
+
+    /// The functions that a pipeline file can call.
+    pub(crate) fn names(&self) -> &Names {
+        &self.host.compiler.names
+    }
+
+    /// Runs a text as if it were the file.
+    pub(crate) fn run_text(&self, text: &str) -> Result<PipelineDesc, Problems> {
+        self.made.forget();
+        self.run(self.host.compile(&self.path, text))
+    }
+
+    fn run(&self, compiled: Result<Arc<AST>, Problem>) -> Result<PipelineDesc, Problems> {
+        let run = |ast: Arc<AST>| self.host.run(&ast, &self.path, self.load_time);
+        self.made
+            .finish(compiled.and_then(run), &self.host.compiler)
+    }
 }
 
 /// A pipeline that can be chosen.

@@ -9,6 +9,7 @@ use super::builder::{Builder, Pipeline, method, problem, shader_name};
 use crate::api::{Api, Arguments, Mistake};
 
 pub(super) fn register(api: &mut Api) {
+    api.section("Parameters");
     api.method(
         "number(name, default, min, max)",
         "Declares a number that can be set from outside, and gives the value in force. Shaders \
@@ -69,7 +70,7 @@ pub(super) fn register(api: &mut Api) {
         method(
             api,
             form,
-            "Says what a parameter does, and its unit.",
+            "Says what a parameter does, and its unit, as in `EV`, for the editor.",
             |builder, arguments, _| {
                 let (name, text) = (arguments.text(0)?, arguments.text(1)?);
                 let unit = match arguments.len() {

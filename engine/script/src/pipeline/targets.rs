@@ -24,10 +24,12 @@ impl ScriptType for Target {
 
 pub(super) fn register(api: &mut Api) {
     api.object::<Target>();
+    api.section("Targets");
     api.method(
         "target(name, format)",
-        "Declares a texture that passes write and read, as large as the output. The format is a \
-         WebGPU name, as in `rgba16float`.",
+        "Declares a texture that passes write and read: flat, as large as the output, with one mip \
+         level and one sample a texel. The methods below change that. The format is a WebGPU name, \
+         as in `rgba16float`. Shaders use the target by its name.",
         |pipeline: Pipeline, arguments| {
             let mut declared = None;
             pipeline.note(arguments, |builder, at| {
@@ -59,7 +61,8 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "scale(factor)",
-        "Makes the target smaller or larger than the output, by a factor from 1/64 to 4.",
+        "Makes the target smaller or larger than the output, along each side. The size is rounded \
+         to whole texels, at least one. Default: `1`.",
         |target, arguments| {
             let factor = arguments.number_in(0, 1.0 / 64.0, 4.0)?;
             target.size = TargetSize::Relative(factor as f32);
@@ -69,7 +72,7 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "size(width, height)",
-        "Gives the target a fixed size in texels.",
+        "Gives the target a fixed size in texels, whatever the output's.",
         |target, arguments| {
             let width = arguments.whole(0, 1, MAX_SIDE)? as u32;
             let height = arguments.whole(1, 1, MAX_SIDE)? as u32;
@@ -80,7 +83,8 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "per_tile(size)",
-        "Gives the target one texel for each tile of that many by that many pixels.",
+        "Gives the target one texel for each tile of that many by that many pixels. Tiles at the \
+         edge may be cut.",
         |target, arguments| {
             target.size = TargetSize::Tiles(arguments.whole(0, 1, 1024)? as u32);
             Ok(())
@@ -108,7 +112,8 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "mips()",
-        "Gives the target all mip levels down to one texel. A `mips` pass fills them.",
+        "Gives the target all mip levels down to one texel. A `mips` pass fills them, or passes that \
+         write them one by one with `.mip`.",
         |target, _| {
             target.mips = Mips::All;
             Ok(())
@@ -117,7 +122,7 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "mips(count)",
-        "Gives the target so many mip levels.",
+        "Gives the target so many mip levels, with the largest. Default: `1`.",
         |target, arguments| {
             target.mips = Mips::Count(arguments.whole(0, 1, 16)? as u32);
             Ok(())
@@ -126,7 +131,8 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "samples(count)",
-        "Gives each texel 1 or 4 samples; shaders read a `texture_multisampled_2d`.",
+        "Gives each texel 1 or 4 samples; with 4, shaders read a `texture_multisampled_2d`. \
+         Default: `1`.",
         |target, arguments| {
             target.samples = match arguments.whole(0, 1, 4)? {
                 1 => 1,
@@ -143,7 +149,8 @@ pub(super) fn register(api: &mut Api) {
     change(
         api,
         "fallback(format)",
-        "Names a format to take instead where the adapter can't do the first.",
+        "Names a format to take instead where the adapter can't do the first. Called again, it names \
+         the next to try. Without it, such an adapter can't run the pipeline.",
         |target, arguments| {
             let asked = arguments.text(0)?;
             let names: Vec<String> = Format::names().collect();

@@ -74,7 +74,10 @@ fn a_whole_pipeline() {
     assert_eq!(desc.description, "Lights later.");
     assert_eq!(&*desc.file.file, "scripts/pipelines/deferred.rhai");
     let names: Vec<&str> = desc.parameters.iter().map(|p| p.name.as_str()).collect();
-    assert_eq!(names, ["prepass", "exposure", "curve", "heat_map"]);
+    assert_eq!(
+        names,
+        ["prepass", "exposure", "curve", "heat_map", "heat_map_most"]
+    );
     let exposure = desc.parameter("exposure").unwrap();
     assert_eq!(exposure.value, ParameterValue::Number(1.5));
     assert_eq!(exposure.default, ParameterValue::Number(0.0));
@@ -317,4 +320,85 @@ fn files_are_found_and_listed() {
         load_pipeline(&files, path, &Settings::new()).unwrap_err();
     }
     assert!(load_pipeline(&files, "scripts/pipelines/mine.rhai", &Settings::new()).is_ok());
+}
+
+/// What a pass would do nothing with is a mistake, and not silence.
+#[test]
+fn a_pass_refuses_what_has_no_meaning_in_it() {
+    let text = r#"let p = pipeline("Wrong");
+p.target("a", "rgba16float");
+p.copy("c", "a", "b").writes("a");
+p.resolve("r", "a", "b").depth("a");
+p.mips("m", "a", "min").reads("a");
+p.history("h", "a", "b").updates("a");
+p.clear("f").reads("a");
+p.clear("g").writes("a").clear(0, 0, 0, 0).blend("add");
+p.clear("i").depth("a").clear(0).test("always");
+p.compute("k").blend_constant(0, 0, 0, 0);
+p.lights("l").depth("a").test("equal");
+p.remove_pass("x");
+"#;
+    let problems = load(text).unwrap_err();
+    let found: Vec<(u32, &str)> = problems
+        .0
+        .iter()
+        .map(|p| (p.place.line, p.message.as_str()))
+        .collect();
+    let expected = [
+        (
+            3,
+            "a `copy` pass has no targets but those that it begins with",
+        ),
+        (
+            4,
+            "a `resolve` pass has no targets but those that it begins with",
+        ),
+        (
+            5,
+            "a `mips` pass has no targets but those that it begins with",
+        ),
+        (
+            6,
+            "a `history` pass has no targets but those that it begins with",
+        ),
+        (7, "a `clear` pass has no shader that could read something"),
+        (
+            8,
+            "a `clear` pass fills its targets and draws nothing, so `.blend` has no meaning there",
+        ),
+        (
+            9,
+            "a `clear` pass fills its targets and draws nothing, so `.test` has no meaning there",
+        ),
+        (10, "a compute pass has no colour targets"),
+        (
+            11,
+            "a `lights` pass chooses the depth test for each light itself",
+        ),
+        (12, "there is no pass `x`"),
+    ];
+    assert_eq!(found, expected, "{problems}");
+    let empty = load("let p = pipeline(\"Empty\");\np.remove_pass(\"x\");").unwrap_err();
+    assert_eq!(empty.0[0].hint.as_deref(), Some("there is none yet"));
+}
+
+#[test]
+fn a_part_that_is_called_wrongly_says_how_it_is_written() {
+    let (_folder, files) = project(&[
+        (
+            "scripts/pipelines/test.rhai",
+            "import \"parts/out\" as out;\nlet p = pipeline(\"x\");\nout::add(p);\np",
+        ),
+        ("scripts/pipelines/parts/out.rhai", OUT),
+    ]);
+    let problem = load_pipeline(&files, "test", &Settings::new())
+        .unwrap_err()
+        .0
+        .remove(0);
+    assert_eq!(
+        problem.message,
+        "the module `out` has no function `add` with one argument"
+    );
+    let hint = problem.hint.unwrap();
+    assert_eq!(hint, "it is written `out::add(p, hdr)`");
 }

@@ -210,7 +210,7 @@ fn update_call(host: &Host, path: &str) -> Result<Option<AST>, Problem> {
     let Some(function) = source.functions.iter().find(|f| f.name == "update") else {
         return Ok(None);
     };
-    let arguments = match function.arguments {
+    let arguments = match function.arguments.len() {
         0 => "",
         1 => "time",
         2 => "time, dt",

@@ -2,25 +2,29 @@
 
 use lightbench_render::description::{
     Blend, BlendFactor, BlendOperation, BlendPart, ColorAttachment, ColorMask, Load, Named,
-    PassKind,
+    PassDesc, PassKind,
 };
 
 use super::super::builder::Last;
-use super::{Open, method};
+use super::{Open, draws, method, takes_targets};
 use crate::api::{Api, Arguments, Mistake};
 
 pub(super) fn register(api: &mut Api) {
+    api.section("Colour targets");
     method(
         api,
         "writes(target)",
-        "Adds a colour target, in the order of the shader's outputs. `.clear`, `.blend`, `.mask`, \
-         `.resolves_to` and `.drop_samples` after it apply to it.",
+        "Adds a colour target, in the order of the shader's outputs: the first takes \
+         `@location(0)`. `.clear`, `.blend`, `.mask`, `.resolves_to` and `.drop_samples` after it \
+         apply to it. A pass has at most eight.",
         |open, arguments| {
             let target = arguments.text(0)?;
-            if matches!(open.pass.kind, PassKind::Compute(_)) {
-                return Err(Mistake::new("a compute pass has no colour targets")
-                    .with_hint(format!("write `.updates(\"{target}\")`")));
-            }
+            colors(open.pass).map_err(|mistake| match open.pass.kind {
+                PassKind::Compute(_) => {
+                    mistake.with_hint(format!("write `.updates(\"{target}\")`"))
+                }
+                _ => mistake,
+            })?;
             open.pass.colors.push(ColorAttachment::new(target, open.at));
             *open.last = Last::Color;
             Ok(())
@@ -29,7 +33,9 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "clear(red, green, blue, alpha)",
-        "Fills the last `.writes` target with a constant before the pass.",
+        "Fills the last `.writes` target with a constant before the pass, in the target's own \
+         numbers: linear light, or whole numbers for integer formats. Without it, what earlier \
+         passes left is kept.",
         |open, arguments| {
             let mut color = [0.0; 4];
             for (index, channel) in color.iter_mut().enumerate() {
@@ -48,7 +54,7 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "mask(channels)",
-        "Writes only some channels of the last `.writes` target, as in `rgb`.",
+        "Writes only some channels of the last `.writes` target, as in `rgb`. Default: `\"rgba\"`.",
         |open, arguments| {
             let letters = arguments.text(0)?;
             let mask = ColorMask::from_letters(&letters).ok_or_else(|| {
@@ -62,7 +68,7 @@ pub(super) fn register(api: &mut Api) {
         api,
         "resolves_to(target)",
         "At the end of the pass, another target takes the mean of the samples of the last \
-         `.writes` target.",
+         `.writes` target, which has 4 samples a texel.",
         |open, arguments| {
             let name = arguments.text(0)?;
             let at = open.at.clone();
@@ -81,8 +87,11 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "blend_constant(red, green, blue, alpha)",
-        "Sets what the blend factors `constant` and `one_minus_constant` stand for.",
+        "Sets what the blend factors `constant` and `one_minus_constant` stand for. Default: `0, 0, \
+         0, 0`.",
         |open, arguments| {
+            colors(open.pass)?;
+            draws(open.pass, "blend_constant")?;
             for index in 0..4 {
                 open.pass.blend_constant[index] = arguments.number(index)?;
             }
@@ -95,8 +104,10 @@ fn blending(api: &mut Api) {
     method(
         api,
         "blend(mode)",
-        "How new values combine with the last `.writes` target: `replace`, `add`, `over`, \
-         `premultiplied`, `min` or `max`.",
+        "How new values combine with what the last `.writes` target holds. With s the new value, d \
+         the old one and α the new alpha: `replace` s, `add` s + d, `over` α s + (1 − α) d, \
+         `premultiplied` s + (1 − α) d, `min` and `max` the smaller and the larger, channel by \
+         channel.",
         |open, arguments| {
             let blend = arguments.choice(0, &Blend::NAMES)?;
             if *open.last == Last::Depth {
@@ -148,11 +159,26 @@ fn part(arguments: &Arguments) -> Result<BlendPart, Mistake> {
     })
 }
 
+/// Whether the pass can have colour targets.
+fn colors(pass: &PassDesc) -> Result<(), Mistake> {
+    takes_targets(pass)?;
+    match pass.kind {
+        PassKind::Compute(_) => Err(Mistake::new("a compute pass has no colour targets")),
+        PassKind::Shadow(_) => Err(Mistake::new(
+            "a shadow pass draws depth alone and has no colour targets",
+        )),
+        _ => Ok(()),
+    }
+}
+
 fn attached(
     open: Open,
     method: &str,
     change: impl FnOnce(&mut ColorAttachment),
 ) -> Result<(), Mistake> {
+    if method != "clear" {
+        draws(open.pass, method)?;
+    }
     match (*open.last, open.pass.colors.last_mut()) {
         (Last::Color, Some(attachment)) => {
             change(attachment);

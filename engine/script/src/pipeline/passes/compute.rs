@@ -12,7 +12,7 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "threads(x, y, z)",
-        "Runs so many invocations; the last workgroups may have some over.",
+        "Runs so many invocations along x, y and z; the last workgroups may have some over.",
         |open, arguments| {
             let amount = fixed(arguments, MOST * 64)?;
             dispatch(open, "threads", Dispatch::Threads(amount))
@@ -21,7 +21,8 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "threads_of(target)",
-        "Runs one invocation for each texel of a target, and for each of its layers.",
+        "Runs one invocation for each texel of a target, and for each of its layers along z; the last \
+         workgroups may have some over.",
         |open, arguments| {
             let target = arguments.text(0)?;
             let amount = Amount::Texels { target, mip: 0 };
@@ -31,7 +32,7 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "threads_of(target, mip)",
-        "Runs one invocation for each texel of a mip level of a target.",
+        "Runs one invocation for each texel of a mip level of a target; 0 is the largest.",
         |open, arguments| {
             let target = arguments.text(0)?;
             let mip = arguments.whole(1, 0, 15)? as u32;
@@ -69,7 +70,7 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "groups(x, y, z)",
-        "Runs so many workgroups.",
+        "Runs so many workgroups along x, y and z. Default: `1, 1, 1`.",
         |open, arguments| {
             let amount = fixed(arguments, MOST)?;
             dispatch(open, "groups", Dispatch::Groups(amount))
@@ -99,7 +100,8 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "groups_from(buffer, word)",
-        "Runs as many workgroups along x, y and z as three words of a buffer say.",
+        "Runs as many workgroups along x, y and z as three words of a buffer say, beginning with that \
+         word, counted from 0.",
         |open, arguments| {
             let buffer = arguments.text(0)?;
             let word = arguments.whole(1, 0, i64::from(u32::MAX / 4) - 3)? as u32;

@@ -5,16 +5,19 @@ use lightbench_render::description::{
 };
 
 use super::super::builder::Last;
-use super::{Open, method};
+use super::{Open, draws, method, takes_targets};
 use crate::api::{Api, Mistake};
 
 pub(super) fn register(api: &mut Api) {
+    api.section("Depth and stencil");
     method(
         api,
         "depth(target)",
-        "Sets the depth target. Nearer fragments pass and write; a `lights` pass never writes.",
+        "Sets the depth target. Fragments as near as what is there or nearer pass and are written; \
+         a `lights` pass never writes.",
         |open, arguments| {
             let target = arguments.text(0)?;
+            takes_targets(open.pass)?;
             if let Some(first) = &open.pass.depth
                 && first.at.file == open.at.file
             {
@@ -34,7 +37,8 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "clear(depth)",
-        "Fills the depth target before the pass. Depth is reversed: 0 is the far plane.",
+        "Fills the depth target before the pass. Depth is reversed: 1 is the near plane, 0 the far \
+         one. Without it, what earlier passes left is kept.",
         |open, arguments| {
             let depth = arguments.number_in(0, 0.0, 1.0)?;
             match (*open.last, &mut open.pass.depth) {
@@ -53,23 +57,30 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "test(compare)",
-        "Which fragments pass the depth test: `nearer`, `strictly_nearer`, `farther`, \
-         `strictly_farther`, `equal`, `not_equal`, `always` or `never`.",
+        "Which fragments pass the depth test, compared with what is there. `nearer` and `farther` let \
+         equal depth pass too.",
         |open, arguments| {
             let compare = arguments.choice(0, &Compare::DEPTH_NAMES)?;
+            if matches!(open.pass.kind, PassKind::Lights(_)) {
+                return Err(Mistake::new(
+                    "a `lights` pass chooses the depth test for each light itself",
+                ));
+            }
             attached(open, "test", |depth| depth.compare = compare)
         },
     );
     method(
         api,
         "read_only()",
-        "Tests depth without writing it, so that the shader may read it too.",
+        "Tests depth without writing it, so that the shader may read it too. Without it, fragments \
+         write their depth, but for those of a `lights` pass.",
         |open, _| attached(open, "read_only", |depth| depth.write = false),
     );
     method(
         api,
         "bias(constant, slope)",
-        "Moves fragments by steps of depth's resolution and by their slope, nearer if positive.",
+        "Moves fragments by steps of depth's resolution and by their slope, nearer if positive. \
+         Default: `0, 0`.",
         |open, arguments| {
             let constant = arguments.whole(0, -1_000_000, 1_000_000)? as i32;
             let slope = arguments.float(1)?;
@@ -83,7 +94,8 @@ fn stencil(api: &mut Api) {
     method(
         api,
         "stencil(compare, reference)",
-        "Draws only where the reference compares so with the stencil value. Comes after `.depth`.",
+        "Draws only where the reference compares so with the stencil value: `less` where the \
+         reference is less. Comes after `.depth`. Default: `\"always\", 0`.",
         |open, arguments| {
             let compare = arguments.choice(0, &Compare::STENCIL_NAMES)?;
             let reference = arguments.whole(1, 0, 255)? as u8;
@@ -96,8 +108,8 @@ fn stencil(api: &mut Api) {
     method(
         api,
         "stencil_write(pass)",
-        "What happens to the stencil value where stencil and depth test pass: `keep`, `zero`, \
-         `replace`, `invert`, `increment`, `decrement`, `increment_wrap` or `decrement_wrap`.",
+        "What happens to the stencil value where stencil and depth test pass. `replace` writes the \
+         reference; `increment` stops at 255 and `decrement` at 0, unless they wrap.",
         |open, arguments| {
             let pass = arguments.choice(0, &StencilOperation::NAMES)?;
             stenciled(open, "stencil_write", |stencil| stencil.pass = pass)
@@ -121,7 +133,7 @@ fn stencil(api: &mut Api) {
     method(
         api,
         "stencil_masks(read, write)",
-        "Which bits of stencil are compared and which are written, as numbers from 0 to 255.",
+        "Which bits of stencil are compared and which are written. Default: `255, 255`.",
         |open, arguments| {
             let read = arguments.whole(0, 0, 255)? as u8;
             let write = arguments.whole(1, 0, 255)? as u8;
@@ -134,7 +146,7 @@ fn stencil(api: &mut Api) {
     method(
         api,
         "clear_stencil(value)",
-        "Fills stencil before the pass.",
+        "Fills stencil before the pass. Without it, what earlier passes left is kept.",
         |open, arguments| {
             let value = arguments.whole(0, 0, 255)? as u8;
             stenciled(open, "clear_stencil", |stencil| {
@@ -149,6 +161,9 @@ fn attached(
     method: &str,
     change: impl FnOnce(&mut DepthAttachment),
 ) -> Result<(), Mistake> {
+    if method != "clear_stencil" {
+        draws(open.pass, method)?;
+    }
     match &mut open.pass.depth {
         Some(depth) => {
             change(depth);

@@ -9,6 +9,7 @@ use super::{Open, method, only_for};
 use crate::api::{Api, Mistake};
 
 pub(super) fn register(api: &mut Api) {
+    api.section("What is drawn");
     geometry(api);
     repeat(api);
     lights(api);
@@ -18,7 +19,9 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "draws(list)",
-        "Says which objects a geometry pass draws: `opaque`, `transparent`, `all` or `casters`.",
+        "Which objects are drawn: `opaque` ones that are in view, `transparent` ones that are in view \
+         (materials with an opacity below 1), `all` that are in view, or `casters`: what is opaque, \
+         in view or not.",
         |open, arguments| {
             let list = arguments.choice(0, &DrawList::NAMES)?;
             of_geometry(open, "draws", |geometry| geometry.list = list)
@@ -27,7 +30,7 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "order(order)",
-        "In which order a geometry pass draws its objects: `state` groups equal meshes, \
+        "In which order objects are drawn: `state` groups equal meshes into one draw call, \
          `front_to_back` hides early, `back_to_front` is what blending needs.",
         |open, arguments| {
             let order = arguments.choice(0, &DrawOrder::NAMES)?;
@@ -37,8 +40,8 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "faces(faces)",
-        "Which faces a geometry or shadow pass draws: `material` (back faces only of two-sided \
-         materials), `front`, `back` or `both`.",
+        "Which faces are drawn: `material` (back faces only of two-sided materials), `front`, `back` \
+         or `both`.",
         |open, arguments| {
             let faces = arguments.choice(0, &Faces::NAMES)?;
             match &mut open.pass.kind {
@@ -54,7 +57,7 @@ fn geometry(api: &mut Api) {
         api,
         "pull_vertices(on)",
         "Draws without vertex buffers: the shader's own vertex stage gets `vertex_index` 0, 1, 2, … \
-         three for each triangle, and fetches from `mesh_indices` and `mesh_positions`.",
+         three for each triangle, and fetches the vertices with `lightbench::mesh`.",
         |open, arguments| {
             let on = arguments.switch(0)?;
             of_geometry(open, "pull_vertices", |geometry| {
@@ -67,7 +70,7 @@ fn geometry(api: &mut Api) {
         "layers(count)",
         "Spreads the objects over so many layers, such that those that overlap on the screen are in \
          different ones as far as there are enough. Shaders find an object's layer, from 0, in \
-         `drawn_objects`.",
+         `scene::drawn_objects`. Default: `0`.",
         |open, arguments| {
             let layers = arguments.whole(0, 0, MAX_LAYERS as i64)? as u32;
             of_geometry(open, "layers", |geometry| geometry.layers = layers)
@@ -76,8 +79,8 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "gather_lights(on)",
-        "Whether the engine gathers, for each object, the lights that reach it. Else each object \
-         gets all lights.",
+        "Whether each object's list holds only the lights that reach its bounds. Else it holds all \
+         of the scene. The same as `.object_lights` with `gathered` or `all`.",
         |open, arguments| {
             let on = arguments.switch(0)?;
             of_geometry(open, "gather_lights", |geometry| {
@@ -92,7 +95,8 @@ fn geometry(api: &mut Api) {
     method(
         api,
         "object_lights(which)",
-        "Which lights each object's list holds: `all`, `gathered`, `ambient` or `nothing`.",
+        "Which lights each object's list holds: `all` of the scene, `gathered` (those that reach its \
+         bounds, and those without a range), only `ambient` ones, or `nothing`.",
         |open, arguments| {
             let lights = arguments.choice(0, &ObjectLights::NAMES)?;
             of_geometry(open, "object_lights", |geometry| geometry.lights = lights)
@@ -105,7 +109,7 @@ fn repeat(api: &mut Api) {
         api,
         "repeat_for_lights(count)",
         "Draws the objects again for each group of that many lights, ambient ones left out; each \
-         time only those that a light of the group reaches.",
+         time only those that a light of the group reaches. Without it, objects are drawn once.",
         |open, arguments| {
             let lights = arguments.whole(0, 1, 1024)? as u32;
             of_geometry(open, "repeat_for_lights", |geometry| {
@@ -143,7 +147,8 @@ fn lights(api: &mut Api) {
     method(
         api,
         "volumes(on)",
-        "Whether lights are drawn as volumes. Else each covers the whole screen.",
+        "Whether lights are drawn as volumes: a sphere for points and wide spots, a cone for spots up \
+         to 120°. Else each covers the whole screen, as ambient and directional lights always do.",
         |open, arguments| {
             let on = arguments.switch(0)?;
             of_lights(open, "volumes", |lights| lights.volumes = on)
@@ -152,8 +157,9 @@ fn lights(api: &mut Api) {
     method(
         api,
         "volume_stencil(scheme)",
-        "How pixels inside a volume are found: `off` by one depth test, `two_pass` and `inverse` \
-         by marking stencil first.",
+        "How pixels inside a volume are found: `off` by one depth test against one side of it; by \
+         marking stencil first, `two_pass` back faces behind the surface, then front faces before \
+         it, `inverse` front faces behind the surface, which are then left out.",
         |open, arguments| {
             let stencil = arguments.choice(0, &LightStencil::NAMES)?;
             of_lights(open, "volume_stencil", |lights| lights.stencil = stencil)
@@ -163,7 +169,7 @@ fn lights(api: &mut Api) {
         api,
         "threshold(share)",
         "Lights that look smaller than this share of the vertical field of view are drawn without \
-         stencil.",
+         stencil, which would cost more than it saves. Default: `0.2`.",
         |open, arguments| {
             let share = arguments.number_in(0, 0.0, 10.0)? as f32;
             of_lights(open, "threshold", |lights| lights.threshold = share)
@@ -172,8 +178,9 @@ fn lights(api: &mut Api) {
     method(
         api,
         "arrays(count)",
-        "Spreads the lights over arrays of lights that do not overlap; each array writes one \
-         channel of the colour targets.",
+        "Spreads the lights over so many arrays of lights that do not overlap. Array n writes channel \
+         n mod 4 of colour target n / 4 alone. With 0, all lights write all channels. Default: \
+         `0`.",
         |open, arguments| {
             let arrays = arguments.whole(0, 0, 32)? as u32;
             of_lights(open, "arrays", |lights| lights.arrays = arrays)
@@ -191,8 +198,8 @@ fn lights(api: &mut Api) {
     method(
         api,
         "any_depth(on)",
-        "Covers every pixel through which a light can be seen at any depth: for transparent \
-         objects and multisampling.",
+        "Ignores depth: covers every pixel through which a light can be seen, for transparent objects \
+         and multisampling.",
         |open, arguments| {
             let on = arguments.switch(0)?;
             of_lights(open, "any_depth", |lights| lights.any_depth = on)

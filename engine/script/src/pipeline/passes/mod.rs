@@ -33,6 +33,7 @@ impl ScriptType for Pass {
 
 pub(super) fn register(api: &mut Api) {
     api.object::<Pass>();
+    api.section("Passes");
     begin(
         api,
         "geometry(name)",
@@ -61,7 +62,7 @@ pub(super) fn register(api: &mut Api) {
     begin(
         api,
         "compute(name)",
-        "Adds a pass that runs a compute shader. Say how often with `.threads_…` or `.groups_…`.",
+        "Adds a pass that runs a compute shader, in one workgroup unless a method says otherwise.",
         |_| {
             let once = Dispatch::Groups(Amount::Fixed(1, 1, 1));
             Ok(PassKind::Compute(once))
@@ -77,8 +78,8 @@ pub(super) fn register(api: &mut Api) {
     transfer::register(api);
     again(api);
     shader::register(api);
-    shadow::register(api);
     kinds::register(api);
+    shadow::register(api);
     compute::register(api);
     resources::register(api);
     colors::register(api);
@@ -122,9 +123,10 @@ fn begin(
 
 /// Registers the methods that change a pipeline which another file made.
 fn again(api: &mut Api) {
+    api.section("Changing another pipeline");
     api.method(
         "pass(name)",
-        "Gives a pass of a derived pipeline, to change it.",
+        "Gives a pass that is there already, of a part or of a derived pipeline, to change it.",
         |pipeline: Pipeline, arguments| {
             let mut id = usize::MAX;
             pipeline.note(arguments, |builder, _| {
@@ -137,7 +139,7 @@ fn again(api: &mut Api) {
     pipeline_method(
         api,
         "remove_pass(name)",
-        "Takes a pass out of a derived pipeline.",
+        "Takes a pass out.",
         |builder, arguments, _| {
             let id = builder.find_pass(&arguments.text(0)?)?;
             builder.remove_pass(id);
@@ -147,7 +149,7 @@ fn again(api: &mut Api) {
     pipeline_method(
         api,
         "remove_target(name)",
-        "Takes a target out of a derived pipeline.",
+        "Takes a target out, so that another of that name can be declared.",
         |builder, arguments, _| {
             let name = arguments.text(0)?;
             let targets = &mut builder.desc.targets;
@@ -167,7 +169,8 @@ fn again(api: &mut Api) {
     pipeline_method(
         api,
         "insert_before(name)",
-        "Says that the passes which follow in this file run before that pass.",
+        "Says that the passes which follow in this file run before that pass. Without it they run \
+         after all others.",
         |builder, arguments, _| {
             let id = builder.find_pass(&arguments.text(0)?)?;
             builder.insert_before = Some(id);
@@ -177,7 +180,7 @@ fn again(api: &mut Api) {
     pipeline_method(
         api,
         "insert_last()",
-        "Says that the passes which follow in this file run after all others.",
+        "Says that the passes which follow in this file run after all others again.",
         |builder, _, _| {
             builder.insert_before = None;
             Ok(())
@@ -209,6 +212,35 @@ fn method(
         });
         Ok(pass)
     });
+}
+
+/// Passes that move what targets hold name these when they begin, and take no others.
+fn takes_targets(pass: &PassDesc) -> Result<(), Mistake> {
+    let kind = &pass.kind;
+    let moves = matches!(
+        kind,
+        PassKind::Copy { .. }
+            | PassKind::Resolve { .. }
+            | PassKind::Mips { .. }
+            | PassKind::History { .. }
+    );
+    if moves {
+        return Err(Mistake::new(format!(
+            "a `{}` pass has no targets but those that it begins with",
+            kind.name()
+        )));
+    }
+    Ok(())
+}
+
+/// A `clear` pass takes no more from its targets' methods than what to fill them with.
+fn draws(pass: &PassDesc, method: &str) -> Result<(), Mistake> {
+    if pass.kind == PassKind::Clear {
+        return Err(Mistake::new(format!(
+            "a `clear` pass fills its targets and draws nothing, so `.{method}` has no meaning there"
+        )));
+    }
+    Ok(())
 }
 
 fn only_for(method: &str, wanted: &str, found: &PassKind) -> Mistake {

@@ -2,17 +2,18 @@
 
 use lightbench_render::description::{PassDesc, PassKind, Read, Slice, Update};
 
-use super::{Open, method};
+use super::{Open, method, takes_targets};
 use crate::api::{Api, Mistake};
 use crate::pipeline::builder::shader_name;
 
 pub(super) fn register(api: &mut Api) {
+    api.section("What the shader reads and updates");
     for form in ["reads(target)", "reads(target, variable)"] {
         method(
             api,
             form,
-            "Lets the shader read a target or buffer, under its name or another. `.mip` and \
-             `.layer` after it choose a part.",
+            "Lets the shader read a target or buffer, under its name or that of another variable. \
+             `.mip` and `.layer` after it choose a part; without them the shader sees all of it.",
             |open, arguments| {
                 let target = arguments.text(0)?;
                 let variable = match arguments.len() {
@@ -20,6 +21,11 @@ pub(super) fn register(api: &mut Api) {
                     _ => target.clone(),
                 };
                 free(open.pass, &variable)?;
+                if open.pass.kind == PassKind::Clear {
+                    return Err(Mistake::new(
+                        "a `clear` pass has no shader that could read something",
+                    ));
+                }
                 open.pass.reads.push(Read {
                     variable,
                     ..Read::new(target, open.at)
@@ -33,8 +39,9 @@ pub(super) fn register(api: &mut Api) {
         method(
             api,
             form,
-            "Lets the shader write a buffer or storage texture wherever it likes. `.mip` and \
-             `.layer` after it choose a part.",
+            "Lets the shader write a buffer or storage texture wherever it likes, and read what it \
+             wrote. `.mip` and `.layer` after it choose a part; without them it is the largest \
+             level, with all layers.",
             |open, arguments| {
                 let target = arguments.text(0)?;
                 let variable = match arguments.len() {
@@ -57,7 +64,8 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "mip(level)",
-        "Chooses a mip level of what was named last; 0 is the largest.",
+        "Chooses a mip level of what was named last by `.reads`, `.updates`, `.writes` or `.depth`; 0 \
+         is the largest. Without it, a pass writes level 0, and reads all.",
         |open, arguments| {
             let mip = arguments.whole(0, 0, 15)? as u32;
             slice(
@@ -72,7 +80,7 @@ pub(super) fn register(api: &mut Api) {
         api,
         "layer(index)",
         "Chooses a layer of an array, a side of a cube or a slice of a volume of what was named \
-         last.",
+         last. Without it, a pass draws to layer 0, and reads all.",
         |open, arguments| {
             let layer = arguments.whole(0, 0, 2047)? as u32;
             if *open.last == super::Last::Update
@@ -93,15 +101,7 @@ pub(super) fn register(api: &mut Api) {
 /// A variable can stand for one thing only.
 fn free(pass: &PassDesc, variable: &str) -> Result<(), Mistake> {
     shader_name(variable, "a variable")?;
-    if matches!(
-        pass.kind,
-        PassKind::Copy { .. } | PassKind::Resolve { .. } | PassKind::History { .. }
-    ) {
-        return Err(Mistake::new(format!(
-            "a `{}` pass has no shader that could read something",
-            pass.kind.name()
-        )));
-    }
+    takes_targets(pass)?;
     let mut taken = pass
         .reads
         .iter()

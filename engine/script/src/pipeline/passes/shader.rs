@@ -7,10 +7,12 @@ use crate::api::{Api, Mistake};
 use crate::pipeline::builder::shader_name;
 
 pub(super) fn register(api: &mut Api) {
+    api.section("The shader");
     method(
         api,
         "shader(path)",
-        "Names the WGSL file, from the project's folder, as in `shaders/output.wgsl`.",
+        "Names the WGSL file, from the project's folder, as in `shaders/output.wgsl`. A pass has one \
+         shader.",
         |open, arguments| {
             let path = arguments.text(0)?;
             if let Some(first) = &open.pass.shader {
@@ -35,7 +37,8 @@ pub(super) fn register(api: &mut Api) {
     method(
         api,
         "define(name)",
-        "Chooses a variant of the shader: `#ifdef NAME` is true in it. Comes after `.shader`.",
+        "Chooses a variant of the shader: `#ifdef NAME` is true in it. Without it, it is false. Comes \
+         after `.shader`.",
         |open, arguments| {
             let name = arguments.text(0)?;
             define(open, Define { name, value: None })

@@ -30,8 +30,10 @@ pub(super) fn register(api: &mut Api) {
         "Adds a view in perspective to a shadow pass: from a point to another, `degrees` wide, from \
          `near` to `far` metres away. The next view fills the next layer.",
         |open, arguments| {
-            let angle = arguments.number_in(2, 1.0, 170.0)?.to_radians() as f32;
-            given(open, arguments, "view_from", Lens::Perspective(angle))
+            given(open, arguments, "view_from", || {
+                let angle = arguments.number_in(2, 1.0, 170.0)?.to_radians();
+                Ok(Lens::Perspective(angle as f32))
+            })
         },
     );
     method(
@@ -40,14 +42,17 @@ pub(super) fn register(api: &mut Api) {
         "Adds a view along parallel lines to a shadow pass: `side` metres wide and high, from `near` \
          to `far` metres away.",
         |open, arguments| {
-            let side = arguments.number_in(2, 1e-3, 1e6)? as f32;
-            given(open, arguments, "box_from", Lens::Orthographic(side))
+            given(open, arguments, "box_from", || {
+                let side = arguments.number_in(2, 1e-3, 1e6)?;
+                Ok(Lens::Orthographic(side as f32))
+            })
         },
     );
     method(
         api,
         "near(metres)",
-        "Distance from a spot or point light at which its shadow begins; 0.05 unless told.",
+        "Distance from a spot or point light at which its shadow begins, in metres. Default: \
+         `0.05`.",
         |open, arguments| {
             let near = arguments.number_in(0, 1e-4, 1e3)? as f32;
             of_shadow(open, "near", |shadow, _| shadow.near = near)
@@ -64,9 +69,15 @@ pub(super) fn new() -> Shadow {
     }
 }
 
-fn given(open: Open, arguments: &Arguments, method: &str, lens: Lens) -> Result<(), Mistake> {
+fn given(
+    open: Open,
+    arguments: &Arguments,
+    method: &str,
+    lens: impl FnOnce() -> Result<Lens, Mistake>,
+) -> Result<(), Mistake> {
     let point = |index| Ok::<_, Mistake>(arguments.object::<DVec3>(index)?.as_vec3().to_array());
     let (eye, target) = (point(0)?, point(1)?);
+    let lens = lens()?;
     if eye == target {
         return Err(Mistake::new(
             "a view can't look at the point from which it looks",

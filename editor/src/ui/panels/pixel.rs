@@ -1,0 +1,81 @@
+//! What each pass did to one pixel.
+
+use egui::{RichText, Ui};
+use egui_extras::{Column, TableBuilder};
+
+use crate::ui::editor::Editor;
+use crate::ui::theme::Palette;
+
+/// Draws the panel.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let ready = workbench.picture_ready();
+    ui.horizontal_wrapped(|ui| {
+        let find = ui.add_enabled(ready, egui::Button::new("Find invalid numbers"));
+        let find = find.on_hover_text(
+            "Names the first pass that leaves a value which is no number, or infinite.",
+        );
+        if find.clicked() {
+            workbench.find_invalid();
+        }
+        if let Some((x, y)) = workbench.probing.pixel {
+            ui.label(RichText::new(format!("Pixel {x}, {y}")).monospace());
+            if ui.button("Read again").clicked() {
+                workbench.probe((x, y));
+            }
+        }
+        if workbench.probing.is_waiting() {
+            ui.spinner();
+        }
+    });
+    let probing = &workbench.probing;
+    let other = workbench.pipelines.shown() != Some(probing.pipeline.as_str());
+    if other || probing.values.is_empty() && probing.invalid.is_none() {
+        let text = "Click a pixel of the picture to see what each pass does to it.";
+        ui.label(RichText::new(text).weak());
+        return;
+    }
+    if let Some(text) = &probing.invalid {
+        ui.label(text);
+    }
+    let palette = Palette::of(ui);
+    let row = ui.text_style_height(&egui::TextStyle::Monospace) + 3.0;
+    let table = TableBuilder::new(ui)
+        .striped(true)
+        .column(Column::auto().at_least(70.0))
+        .column(Column::auto().at_least(70.0))
+        .column(Column::auto().at_least(60.0))
+        .column(Column::remainder());
+    let table = table.header(row, |mut header| {
+        for title in ["Pass", "Target", "Before", "After"] {
+            header.col(|ui| {
+                ui.strong(title);
+            });
+        }
+    });
+    table.body(|body| {
+        body.rows(row, probing.values.len(), |mut line| {
+            let written = &probing.values[line.index()];
+            line.col(|ui| {
+                ui.label(&written.pass);
+            });
+            line.col(|ui| {
+                ui.label(RichText::new(&written.target).monospace());
+            });
+            let before = written.before.as_deref().unwrap_or("not written yet");
+            let same = written.before.as_ref() == Some(&written.after);
+            line.col(|ui| {
+                ui.label(RichText::new(before).monospace().weak());
+            });
+            line.col(|ui| {
+                let mut text = RichText::new(&written.after).monospace();
+                if !written.is_finite {
+                    text = text.color(palette.error);
+                } else if same {
+                    text = text.weak();
+                }
+                ui.label(text);
+            });
+        });
+    });
+}
