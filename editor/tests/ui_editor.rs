@@ -240,6 +240,32 @@ fn any_target_can_be_looked_at_after_any_pass() {
 }
 
 #[test]
+fn a_window_of_another_size_takes_no_memory_for_pipelines_that_are_not_shown() {
+    let mut bench = Bench::open();
+    bench.choose("Pipeline", FORWARD);
+    bench.until("the other pipeline", |editor| {
+        editor.workbench.pipelines.shown() == Some("forward_single_pass")
+    });
+    let holds = |bench: &Bench| {
+        let slot = bench
+            .harness
+            .state()
+            .workbench
+            .pipelines
+            .slot("deferred_shading");
+        slot.unwrap().pipeline.as_ref().unwrap().targets().is_some()
+    };
+    assert!(holds(&bench), "a swap back is immediate");
+    bench.harness.set_size(egui::vec2(900.0, 600.0));
+    bench.harness.run_steps(2);
+    bench.picture();
+    assert!(!holds(&bench));
+    bench.choose("Pipeline", "Deferred shading");
+    assert_eq!(bench.shown(), "deferred_shading");
+    assert!(holds(&bench));
+}
+
+#[test]
 fn another_device_takes_over_with_scene_camera_and_time() {
     let mut bench = Bench::open();
     let workbench = &mut bench.harness.state_mut().workbench;

@@ -246,6 +246,9 @@ impl Pipeline {
         let fits = |targets: &Targets| {
             targets.size == size && (lights <= targets.lights || !depends_on_lights)
         };
+        if let Some(targets) = &self.targets {
+            self.shrink(targets.size, size);
+        }
         let fresh = self.targets.take().filter(fits);
         let same_engine = self.engine_revision == engine.revision;
         if fresh.is_none() {
@@ -284,6 +287,24 @@ impl Pipeline {
             }
         }
         self.targets.insert(targets)
+    }
+
+    /// What buffers have grown to for a larger picture, a smaller one does not need.
+    fn shrink(&mut self, from: (u32, u32), to: (u32, u32)) {
+        let pixels = |(width, height): (u32, u32)| u64::from(width) * u64::from(height);
+        let (before, after) = (pixels(from), pixels(to));
+        if after < before {
+            for words in &mut self.grown {
+                *words = (*words * after).div_ceil(before);
+            }
+        }
+    }
+
+    /// Gives back the memory of all targets and buffers, until the next frame that this pipeline
+    /// draws. Its history is lost.
+    pub fn release_targets(&mut self) {
+        self.targets = None;
+        self.last_frame = None;
     }
 
     /// Whether a buffer or a dispatch is sized by the number of lights.

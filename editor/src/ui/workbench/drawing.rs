@@ -213,9 +213,7 @@ impl Workbench {
     fn redraw(&mut self, wanted: Drawn) {
         let size = Resolution::apply(wanted.size, wanted.scale);
         let time = self.clock.time();
-        let (Some(scene), Some(pipeline)) =
-            (self.scenes.scene_mut(), self.pipelines.shown_pipeline())
-        else {
+        let Some(scene) = self.scenes.scene_mut() else {
             return;
         };
         let resized = self
@@ -224,7 +222,11 @@ impl Workbench {
             .is_none_or(|drawn| Resolution::apply(drawn.size, drawn.scale) != size);
         if resized {
             self.timings.reset();
+            self.pipelines.release_hidden();
         }
+        let Some(pipeline) = self.pipelines.shown_pipeline() else {
+            return;
+        };
         let frame = self.renderer.next_frame();
         let (world, assets) = (&mut scene.world, &scene.assets);
         let result = self

@@ -109,6 +109,18 @@ impl Pipelines {
         slot.pipeline.as_mut()
     }
 
+    /// Gives back the memory that visited pipelines which are not on screen hold for a picture of
+    /// another size; they take theirs when they are shown again.
+    pub fn release_hidden(&mut self) {
+        for (name, slot) in &mut self.slots {
+            if self.shown.as_ref() != Some(name)
+                && let Some(pipeline) = &mut slot.pipeline
+            {
+                pipeline.release_targets();
+            }
+        }
+    }
+
     /// A visited pipeline.
     pub fn slot(&self, name: &str) -> Option<&Slot> {
         self.slots.get(name)
