@@ -174,7 +174,8 @@ impl Renderer {
         self.views = Views::default();
     }
 
-    /// What had to be changed for the scene to fit the device, once.
+    /// What had to be changed for the scene to fit the device, and materials whose reflection model a
+    /// pipeline does not carry, once.
     pub fn take_warnings(&mut self) -> Vec<String> {
         self.scene.take_warnings()
     }
@@ -321,13 +322,17 @@ impl Renderer {
 
         let started = Instant::now();
         systems::update_computed(world, assets.mesh_bounds());
-        self.scene.sync_assets(assets).map_err(RenderError::Scene)?;
+        self.scene
+            .sync_assets(assets, pipeline.models)
+            .map_err(RenderError::Scene)?;
+        self.tell_models(pipeline);
         let (copying, ()) = SystemTime::of("changed rows", || self.scene.sync_world(world));
         let request = FrameRequest {
             view: *view,
             size: (width, height),
             time: time as f32,
             index: self.index,
+            models: pipeline.models,
             previous: self.views.before(self.index),
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
@@ -373,6 +378,19 @@ impl Renderer {
     fn upload(&mut self, pipeline: &Pipeline) -> wgpu::BindGroup {
         self.frame.data.history_frames = pipeline.history_frames();
         self.scene.upload(&self.frame).clone()
+    }
+
+    /// Warns once where a pipeline does not carry the reflection models of the scene's materials.
+    fn tell_models(&mut self, pipeline: &mut Pipeline) {
+        let replaced = self.scene.replaced_models();
+        self.statistics.replaced_models = replaced;
+        if pipeline.told_models != replaced {
+            pipeline.told_models = replaced;
+            if replaced.total() > 0 {
+                let name = &pipeline.desc.name;
+                self.scene.warn(format!("{name}: {replaced}"));
+            }
+        }
     }
 
     /// As [`Renderer::render`], but waits for the counters of pipelines whose buffers may be too

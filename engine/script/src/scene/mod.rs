@@ -11,6 +11,7 @@ mod materials;
 mod models;
 mod motion;
 mod recipes;
+mod reflection;
 mod saved;
 mod shapes;
 mod state;
