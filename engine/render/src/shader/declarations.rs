@@ -188,7 +188,32 @@ impl Listings {
                 _ => None,
             }
         });
-        declared.map(str::to_owned).collect()
+        declared
+            .filter(|name| *name != ":")
+            .map(str::to_owned)
+            .collect()
+    }
+
+    /// The names of a file that others may use: those that are declared outside of all functions.
+    pub fn public_names(listing: &Listing) -> Vec<String> {
+        let scan = Scan {
+            tokens: tokens(&listing.active),
+        };
+        let introduces = ["var", "const", "fn", "struct", "alias", "override"];
+        let mut names = Vec::new();
+        let mut depth = 0_i32;
+        for (at, token) in scan.tokens.iter().enumerate() {
+            match token.text {
+                "{" => depth += 1,
+                "}" => depth -= 1,
+                word if depth == 0 && introduces.contains(&word) => {
+                    let name = scan.tokens.get(scan.after_template(at + 1));
+                    names.extend(name.map(|name| name.text.to_owned()));
+                }
+                _ => {}
+            }
+        }
+        names
     }
 }
 
