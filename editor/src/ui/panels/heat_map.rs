@@ -37,7 +37,7 @@ pub fn choose(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The legend over the picture, at its lower edge.
+/// The legend over the picture, in its lower right corner.
 pub fn legend(ui: &Ui, rect: Rect, desc: &PipelineDesc) {
     const STEPS: usize = 64;
     let Some(map) = HeatMap::of(desc) else {
@@ -49,9 +49,9 @@ pub fn legend(ui: &Ui, rect: Rect, desc: &PipelineDesc) {
     };
     let palette = Palette::of(ui);
     let painter = ui.painter_at(rect);
-    let width = (rect.width() * 0.5).clamp(120.0, 320.0);
+    let width = (rect.width() * 0.4).clamp(120.0, 320.0);
     let bar = Rect::from_min_size(
-        pos2(rect.center().x - width / 2.0, rect.bottom() - 38.0),
+        pos2(rect.right() - width - 26.0, rect.bottom() - 44.0),
         vec2(width, 10.0),
     );
     let text = |x: f32, y: f32, align: egui::Align2, text: String| {

@@ -39,6 +39,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ui.label(text);
     }
     let palette = Palette::of(ui);
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     let row = ui.text_style_height(&egui::TextStyle::Monospace) + 3.0;
     let table = TableBuilder::new(ui)
         .striped(true)
