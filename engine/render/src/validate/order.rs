@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{Checker, FormatSupport};
 use crate::description::{Blend, Load, PassDesc, PassKind};
 use crate::life;
-use crate::problem::Place;
+use crate::problem::{Place, nearest};
 
 impl<S: FormatSupport> Checker<'_, S> {
     pub(super) fn order(&mut self) {
@@ -17,9 +17,19 @@ impl<S: FormatSupport> Checker<'_, S> {
             PassKind::History { to, .. } => Some(to.target.as_str()),
             _ => None,
         }));
+        // What a misspelt name was meant to write has its mistake already.
+        let targets = || desc.targets.iter().map(|target| target.name.as_str());
+        let misspelt = desc
+            .passes
+            .iter()
+            .flat_map(life::writes)
+            .filter(|name| desc.target(name).is_none() && desc.buffer(name).is_none());
+        let meant: BTreeSet<&str> = misspelt
+            .filter_map(|name| nearest(name, targets()))
+            .collect();
         for pass in &desc.passes {
             for (name, at, verb) in wanted(pass) {
-                let fresh = !written.contains(name) && !self.meant.contains(name);
+                let fresh = !written.contains(name) && !meant.contains(name);
                 if desc.target(name).is_some() && fresh && self.unwritten.insert(name) {
                     let later = desc.passes.iter().find(|other| {
                         other.name != pass.name && life::writes(other).any(|w| w == name)
