@@ -13,9 +13,10 @@
 @group(1) @binding(0) var depth: texture_depth_2d;
 @group(1) @binding(1) var g_albedo: texture_2d<f32>;
 @group(1) @binding(2) var g_normal: texture_2d<u32>;
-@group(1) @binding(3) var g_power: texture_2d<f32>;
-@group(1) @binding(4) var<storage, read> cluster_lists: array<vec2u>;
-@group(1) @binding(5) var<storage, read> cluster_lights: array<u32>;
+@group(1) @binding(3) var g_specular: texture_2d<u32>;
+@group(1) @binding(4) var g_model: texture_2d<u32>;
+@group(1) @binding(5) var<storage, read> cluster_lists: array<vec2u>;
+@group(1) @binding(6) var<storage, read> cluster_lights: array<u32>;
 
 @fragment
 fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
@@ -29,7 +30,8 @@ fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         scene::position_from_depth(pixel.xy, vec2f(textureDimensions(depth)), texel_depth),
         textureLoad(g_albedo, texel, 0),
         textureLoad(g_normal, texel, 0).xy,
-        textureLoad(g_power, texel, 0).r,
+        textureLoad(g_specular, texel, 0),
+        textureLoad(g_model, texel, 0).r,
     );
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - fragment.position);
 

@@ -1,7 +1,7 @@
 // Deferred lighting, first pass: what light needs to know of a surface, and no more.
 //
 // In:  a fragment.
-// Out: normal and Blinn-Phong exponent, packed as shaders/lib/g_buffer.wgsl does.
+// Out: normal, gloss and reflection model, packed as shaders/lib/g_buffer.wgsl does.
 // Follows Engel 2008, "Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer".
 #import lightbench::geometry
 #import lightbench::surface
@@ -9,7 +9,8 @@
 
 struct ThinGBuffer {
     @location(0) normal: vec2u,         // octahedral
-    @location(1) power: f32,            // log2(p) / 10.5
+    @location(1) gloss: vec2f,          // along the tangent and, for Ward, across it
+    @location(2) model: u32,            // for Ward the tangent too
 }
 
 @fragment
@@ -17,6 +18,11 @@ fn fragment_main(
     in: geometry::VertexOutput,
     @builtin(front_facing) front_facing: bool,
 ) -> ThinGBuffer {
-    let packed = g_buffer::pack(surface::fragment_surface(in, front_facing));
-    return ThinGBuffer(packed.normal, packed.power);
+    let fragment = surface::fragment_surface(in, front_facing);
+    let packed = g_buffer::pack(fragment);
+    return ThinGBuffer(
+        packed.normal,
+        g_buffer::pack_gloss(fragment.model, fragment.lobe),
+        packed.model,
+    );
 }

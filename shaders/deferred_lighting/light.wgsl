@@ -1,7 +1,9 @@
 // Deferred lighting, second pass: one light adds what arrives, before materials' colours.
 //
-// In:  the light; depth, normal and power of the thin G-buffer.
-// Out: diffuse light; highlights, as a colour, or with MONOCHROME as one number in alpha.
+// In:  the light; depth and the thin G-buffer.
+// Out: diffuse light; highlights, as a colour, or with MONOCHROME as one number in alpha. Both are
+//      multiplied by the material's colours later, so that light which no colour multiplies, the
+//      part of a Fresnel term that rises at grazing angles, has no place here.
 // Follows Engel 2008, "Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer",
 // ShaderX7, and Mittring 2009, "A Bit More Deferred - CryEngine 3".
 #import lightbench::scene
@@ -12,7 +14,8 @@
 
 @group(1) @binding(0) var depth: texture_depth_2d;
 @group(1) @binding(1) var g_normal: texture_2d<u32>;
-@group(1) @binding(2) var g_power: texture_2d<f32>;
+@group(1) @binding(2) var g_gloss: texture_2d<f32>;
+@group(1) @binding(3) var g_model: texture_2d<u32>;
 
 struct LightBuffer {
     @location(0) diffuse: vec4f,
@@ -34,12 +37,12 @@ fn fragment_main(
         return out;
     }
     let resolution = vec2f(textureDimensions(depth));
-    // Base colour and specular are not known yet, and not needed.
-    let fragment = g_buffer::unpack(
+    // Colours are not known yet, and not needed.
+    let fragment = g_buffer::unpack_thin(
         scene::position_from_depth(pixel.xy, resolution, texel_depth),
-        vec4f(0.0),
         textureLoad(g_normal, texel, 0).xy,
-        textureLoad(g_power, texel, 0).r,
+        textureLoad(g_gloss, texel, 0).rg,
+        textureLoad(g_model, texel, 0).r,
     );
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - fragment.position);
     let arriving = lighting::arriving_light(scene::lights[light], fragment, to_viewer);

@@ -12,8 +12,9 @@ struct GBufferAndDepth {
     @location(0) hdr: vec4f,
     @location(1) albedo: vec4f,
     @location(2) normal: vec2u,
-    @location(3) power: f32,
-    @location(4) depth: f32,
+    @location(3) specular: vec4u,
+    @location(4) model: u32,
+    @location(5) depth: f32,
 }
 
 @fragment
@@ -26,7 +27,8 @@ fn fragment_main(
         packed.hdr,
         packed.albedo,
         packed.normal,
-        packed.power,
+        packed.specular,
+        packed.model,
         in.clip_position.z,
     );
 }

@@ -1,7 +1,7 @@
 // From empty, step 3: surfaces go into the G-buffer, unlit.
 //
 // In:  a fragment.
-// Out: the four colour targets of the pass, packed by shaders/lib/g_buffer.wgsl.
+// Out: the five colour targets of the pass, packed by shaders/lib/g_buffer.wgsl.
 #import lightbench::geometry
 #import lightbench::surface
 #import lightbench::g_buffer

@@ -1,7 +1,7 @@
 // From empty, step 6: surfaces go into the G-buffer, and depth into a target of its own.
 //
 // In:  a fragment.
-// Out: the five colour targets of the pass.
+// Out: the six colour targets of the pass.
 #import lightbench::geometry
 #import lightbench::surface
 #import lightbench::g_buffer
@@ -10,8 +10,9 @@ struct GBufferAndDepth {
     @location(0) hdr: vec4f,
     @location(1) albedo: vec4f,
     @location(2) normal: vec2u,
-    @location(3) power: f32,
-    @location(4) depth: f32,
+    @location(3) specular: vec4u,
+    @location(4) model: u32,
+    @location(5) depth: f32,
 }
 
 @fragment
@@ -20,5 +21,5 @@ fn fragment_main(
     @builtin(front_facing) front_facing: bool,
 ) -> GBufferAndDepth {
     let s = g_buffer::pack(surface::fragment_surface(in, front_facing));
-    return GBufferAndDepth(s.hdr, s.albedo, s.normal, s.power, in.clip_position.z);
+    return GBufferAndDepth(s.hdr, s.albedo, s.normal, s.specular, s.model, in.clip_position.z);
 }

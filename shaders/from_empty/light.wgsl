@@ -10,7 +10,8 @@
 @group(1) @binding(0) var depth: texture_2d<f32>;
 @group(1) @binding(1) var g_albedo: texture_2d<f32>;
 @group(1) @binding(2) var g_normal: texture_2d<u32>;
-@group(1) @binding(3) var g_power: texture_2d<f32>;
+@group(1) @binding(3) var g_specular: texture_2d<u32>;
+@group(1) @binding(4) var g_model: texture_2d<u32>;
 
 @fragment
 fn fragment_main(
@@ -26,7 +27,8 @@ fn fragment_main(
         scene::position_from_depth(pixel.xy, scene::frame.resolution, texel_depth),
         textureLoad(g_albedo, texel, 0),
         textureLoad(g_normal, texel, 0).xy,
-        textureLoad(g_power, texel, 0).r,
+        textureLoad(g_specular, texel, 0),
+        textureLoad(g_model, texel, 0).r,
     );
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - point.position);
     let radiance = lighting::evaluate_light(scene::lights[light], point, to_viewer);

@@ -2,7 +2,7 @@
 //
 // In:  a fragment of the small buffers; without OBJECT_ID the smooth groups of meshes. With LAYERED
 //      the object is transparent and has a layer.
-// Out: normal and Blinn-Phong exponent, packed as shaders/lib/g_buffer.wgsl does; what
+// Out: normal, gloss and reflection model, packed as shaders/lib/g_buffer.wgsl does; what
 //      shaders/lib/discontinuity.wgsl compares. Of a transparent object one texel in every 2 × 2.
 // Follows Kircher and Lawrance 2009, "Inferred Lighting".
 #import lightbench::scene
@@ -26,8 +26,9 @@ fn vertex_main(
 
 struct SmallGBuffer {
     @location(0) normal: vec2u,         // octahedral
-    @location(1) power: f32,            // log2(p) / 10.5
-    @location(2) seen: vec2u,           // which surface
+    @location(1) gloss: vec2f,          // along the tangent and, for Ward, across it
+    @location(2) model: u32,            // for Ward the tangent too
+    @location(3) seen: vec2u,           // which surface
 }
 
 @fragment
@@ -41,7 +42,8 @@ fn fragment_main(
 #ifdef OBJECT_ID
     let group = 0u;
 #endif
-    let packed = g_buffer::pack(surface::fragment_surface(in, front_facing));
+    let fragment = surface::fragment_surface(in, front_facing);
+    let packed = g_buffer::pack(fragment);
     let object = scene::drawn_objects[in.drawn];
 #ifdef LAYERED
     if !discontinuity::is_of_layer(vec2u(in.clip_position.xy), object.layer) {
@@ -51,7 +53,8 @@ fn fragment_main(
     let distance_ahead = scene::distance_ahead(in.world_position);
     return SmallGBuffer(
         packed.normal,
-        packed.power,
+        g_buffer::pack_gloss(fragment.model, fragment.lobe),
+        packed.model,
         discontinuity::pack(distance_ahead, object.instance, group),
     );
 }

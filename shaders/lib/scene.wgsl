@@ -46,13 +46,14 @@ struct DrawnObject {
 
 struct Material {
     base_color: vec3f,                  // linear Rec. 709 reflectance
-    specular: f32,                      // specular reflectance, 0 to 1
+    model: u32,                         // reflection model, one of the numbers in brdf.wgsl
+    specular: vec3f,                    // specular reflectance at normal incidence, 0 to 1
+    alpha_cutoff: f32,                  // fragments below are discarded in ALPHA_TEST variants
     emissive: vec3f,                    // radiance
-    power: f32,                         // Blinn-Phong exponent, 1 to 1448
+    opacity: f32,                       // share of what lies behind that it hides
+    lobe: vec2f,                        // exponent, 1 to 1448; or roughness along the tangent and across
     base_color_texture: u32,            // bucket << 16 | layer, or NO_TEXTURE
     normal_texture: u32,
-    alpha_cutoff: f32,                  // fragments below are discarded in ALPHA_TEST variants
-    opacity: f32,                       // share of what lies behind that it hides
 }
 
 struct Light {

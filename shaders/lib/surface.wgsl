@@ -15,10 +15,12 @@ struct Surface {
     position: vec3f,                    // world
     normal: vec3f,                      // world, unit length
     base_color: vec3f,                  // diffuse reflectance, linear Rec. 709
-    specular: f32,                      // specular reflectance
-    power: f32,                         // Blinn-Phong exponent
+    specular: vec3f,                    // specular reflectance at normal incidence
     emissive: vec3f,                    // radiance
     opacity: f32,                       // share of what lies behind that it hides; 1: opaque
+    model: u32,                         // one of the numbers in brdf.wgsl
+    lobe: vec2f,                        // exponent; or roughness along the tangent and across it
+    tangent: vec3f,                     // world, unit length; zero without REFLECTION_MODELS
 }
 
 // A unit vector, or +y where the length vanishes: degenerate triangles must not make NaN.
@@ -28,6 +30,18 @@ fn safe_normalize(v: vec3f) -> vec3f {
         return vec3f(0.0, 1.0, 0.0);
     }
     return v * inverseSqrt(length_squared);
+}
+
+// The part of a tangent that lies in the surface, as a unit vector; where nothing is left of it, any
+// unit vector that lies there.
+fn surface_tangent(tangent: vec3f, normal: vec3f) -> vec3f {
+    var along = safe_normalize(tangent);
+    along -= normal * dot(normal, along);
+    if dot(along, along) < 1e-6 {
+        let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
+        along = axis - normal * dot(normal, axis);
+    }
+    return normalize(along);
 }
 
 // A point of a mesh, before its material is read.
@@ -91,20 +105,33 @@ fn bent_normal(point: Point) -> vec3f {
 #ifdef COUNT_LIGHTS
 // For heat maps all surfaces are white, matt and dark of their own, so that what arrives is seen.
 fn surface_of_color(point: Point, color: vec4f) -> Surface {
-    return Surface(point.position, bent_normal(point), vec3f(1.0), 0.0, 1.0, vec3f(0.0), 1.0);
+    var s: Surface;
+    s.position = point.position;
+    s.normal = bent_normal(point);
+    s.base_color = vec3f(1.0);
+    s.opacity = 1.0;
+    s.lobe = vec2f(1.0);
+    return s;
 }
 #else
 fn surface_of_color(point: Point, color: vec4f) -> Surface {
     let material = material_of(point);
+    let normal = bent_normal(point);
+    var tangent = vec3f(0.0);
+#ifdef REFLECTION_MODELS
+    tangent = surface_tangent(point.tangent.xyz, normal);
+#endif
     return Surface(
         point.position,
-        bent_normal(point),
+        normal,
         color.rgb,
         material.specular,
-        material.power,
         material.emissive,
         // A texture's alpha thins out only what is transparent as a whole.
         select(material.opacity * color.a, 1.0, material.opacity >= 1.0),
+        material.model,
+        material.lobe,
+        tangent,
     );
 }
 #endif

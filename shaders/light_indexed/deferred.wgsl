@@ -11,7 +11,8 @@
 @group(1) @binding(5) var depth: texture_depth_2d;
 @group(1) @binding(6) var g_albedo: texture_2d<f32>;
 @group(1) @binding(7) var g_normal: texture_2d<u32>;
-@group(1) @binding(8) var g_power: texture_2d<f32>;
+@group(1) @binding(8) var g_specular: texture_2d<u32>;
+@group(1) @binding(9) var g_model: texture_2d<u32>;
 
 struct Shaded {
     @location(0) hdr: vec4f,
@@ -30,7 +31,8 @@ fn fragment_main(@builtin(position) pixel: vec4f) -> Shaded {
         scene::position_from_depth(pixel.xy, vec2f(textureDimensions(depth)), texel_depth),
         textureLoad(g_albedo, texel, 0),
         textureLoad(g_normal, texel, 0).xy,
-        textureLoad(g_power, texel, 0).r,
+        textureLoad(g_specular, texel, 0),
+        textureLoad(g_model, texel, 0).r,
     );
     let found = pixel_lights::sum(texel, fragment);
     return Shaded(vec4f(found.radiance, 0.0), select(0.0, 1.0, found.lost));

@@ -17,14 +17,15 @@
 @group(1) @binding(2) var emitted: texture_2d<f32>;
 @group(1) @binding(3) var g_albedo: texture_2d<f32>;
 @group(1) @binding(4) var g_normal: texture_2d<u32>;
-@group(1) @binding(5) var g_power: texture_2d<f32>;
+@group(1) @binding(5) var g_specular: texture_2d<u32>;
+@group(1) @binding(6) var g_model: texture_2d<u32>;
 #ifdef FULL_FLOAT
-@group(1) @binding(6) var hdr: texture_storage_2d<rgba32float, write>;
+@group(1) @binding(7) var hdr: texture_storage_2d<rgba32float, write>;
 #else
-@group(1) @binding(6) var hdr: texture_storage_2d<rgba16float, write>;
+@group(1) @binding(7) var hdr: texture_storage_2d<rgba16float, write>;
 #endif
-@group(1) @binding(7) var<storage, read_write> tile_totals: array<atomic<u32>>;
-@group(1) @binding(8) var tile_light_count: texture_storage_2d<r32uint, write>;
+@group(1) @binding(8) var<storage, read_write> tile_totals: array<atomic<u32>>;
+@group(1) @binding(9) var tile_light_count: texture_storage_2d<r32uint, write>;
 
 // Invocations along a side of the workgroup, and pixels along a side that each shades.
 const SIDE: u32 = 8u;
@@ -66,7 +67,8 @@ fn compute_main(
             scene::position_from_depth(pixel, vec2f(size), depths[p]),
             textureLoad(g_albedo, texel, 0),
             textureLoad(g_normal, texel, 0).xy,
-            textureLoad(g_power, texel, 0).r,
+            textureLoad(g_specular, texel, 0),
+            textureLoad(g_model, texel, 0).r,
         );
         radiance[p] = textureLoad(emitted, texel, 0).rgb;
     }

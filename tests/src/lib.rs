@@ -10,9 +10,9 @@ pub mod workshop;
 
 pub use workshop::Workshop;
 
-use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
-use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, View};
+use lightbench::assets::{Assets, MaterialId, Progress, ReflectionModels};
+use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, Variants, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 
 /// A scene and a device to draw it on.
@@ -74,12 +74,17 @@ impl Studio {
         self.renderer.reset_scene();
     }
 
-    /// A shipped pipeline, or one of the project.
+    /// A shipped pipeline, or one of the project, for the reflection models of the scene.
     pub fn compile(&self, pipeline: &str, settings: &Settings) -> Pipeline {
         let desc = load_pipeline(&self.files, pipeline, settings).unwrap_or_else(|e| panic!("{e}"));
+        let variants = if self.scene.assets.reflection_models().has_others() {
+            Variants::ALL
+        } else {
+            Variants::DEFAULT_MODEL
+        };
         self.renderer
             .compiler()
-            .compile(&self.files, &desc)
+            .compile_for(&self.files, &desc, variants)
             .unwrap_or_else(|e| panic!("{e}"))
     }
 
@@ -117,6 +122,25 @@ impl Studio {
             .render_whole(world, assets, &mut pipeline, &self.view, size, 0.0)
             .unwrap();
         pipeline
+    }
+
+    /// The reflection models that a pipeline says it carries.
+    pub fn models(&self, pipeline: &str, settings: &Settings) -> ReflectionModels {
+        let desc = load_pipeline(&self.files, pipeline, settings).unwrap_or_else(|e| panic!("{e}"));
+        desc.reflection_models()
+    }
+
+    /// Gives each material of the scene the nearest reflection model among some, as a pipeline does
+    /// that carries no others. Returns the assets as they were.
+    pub fn replace_models(&mut self, carried: ReflectionModels) -> Assets {
+        let before = self.scene.assets.clone();
+        for (index, entry) in before.materials().iter().enumerate() {
+            let mut material = entry.value.clone();
+            material.reflection = material.reflection.nearest(carried);
+            let id = MaterialId(index as u32);
+            self.scene.assets.replace_material(id, material).unwrap();
+        }
+        before
     }
 
     /// The linear picture of a frame.

@@ -2,9 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use lightbench::assets::files::Files;
+use lightbench::assets::{ReflectionModel, ReflectionModels};
 use lightbench::lab::{HdrImage, diff};
 use lightbench::render::TargetImage;
-use lightbench::script::list_pipelines;
+use lightbench::script::{list_pipelines, load_pipeline};
 use lightbench_tests::compare::{
     flip_mean, mean_difference, order_bound, relative_difference, share_beyond,
 };
@@ -24,7 +25,7 @@ enum Surfaces {
     /// In the G-buffer of shaders/lib/g_buffer.wgsl: agrees so with deferred shading, and with
     /// forward shading within the quantisation.
     GBuffer,
-    /// Normal and power in textures, colours in registers: agrees within the quantisation.
+    /// Normal and gloss in textures, colours in registers: agrees within the quantisation.
     Thin,
     /// Fetched for each pixel: agrees with forward shading but for the rounding of what is
     /// interpolated, and for the gradients of textures, which the rasteriser takes as differences
@@ -99,7 +100,7 @@ impl Picture {
         accumulation: &str,
     ) -> Self {
         let options = settings(&[options, &[accumulation]].concat());
-        let desc = studio.compile(name, &options).desc;
+        let desc = load_pipeline(&studio.files, name, &options).unwrap();
         let limited = desc.target("over_capacity").is_some();
         let pipeline = if limited {
             studio.draw_whole(name, &options, SIZE).0
@@ -182,11 +183,22 @@ fn agree_among(
             .find(|picture| picture.name == wanted)
             .unwrap()
     };
-    let (forward, deferred) = (find("forward_single_pass"), find("deferred_shading"));
+    let (carrying_all, deferred) = (find("forward_single_pass"), find("deferred_shading"));
     let bound = order_bound(studio.renderer.lights().len());
     println!("{scene} {texts:?} portable={portable}, bound {bound:.2e}");
     for picture in &pictures {
         let (name, surfaces) = (picture.name, picture.surfaces);
+        // A pipeline that lacks a reflection model is held to forward shading of what it draws
+        // instead.
+        let carried = studio.models(name, &settings(&[]));
+        let replaced = (carried != ReflectionModels::all()).then(|| {
+            let assets = studio.replace_models(carried);
+            let forward = ("forward_single_pass", Surfaces::Exact, &[][..]);
+            let picture = Picture::draw(&mut studio, forward, accumulation(portable));
+            studio.scene.assets = assets;
+            picture
+        });
+        let forward = replaced.as_ref().unwrap_or(carrying_all);
         let reference = match surfaces {
             Surfaces::GBuffer => deferred,
             _ => forward,
@@ -307,6 +319,39 @@ fn within_their_capacity_nothing_is_lost() {
     }
 }
 
+/// Each reflection model through each pipeline, as plastic and as metal.
+#[test]
+fn on_all_reflection_models() {
+    agree("brdf_spheres", &["surface=plastic"], false, Room::Enough);
+    agree("brdf_spheres", &["surface=gold"], false, Room::Enough);
+}
+
+#[test]
+fn on_all_reflection_models_with_portable_features_only() {
+    agree("brdf_spheres", &["surface=gold"], true, Room::Enough);
+}
+
+/// Deferred lighting carries no Fresnel term. What it draws instead differs from what was asked for,
+/// so that the comparison above is with something else; and it says so, once.
+#[test]
+fn a_model_that_a_pipeline_lacks_is_drawn_as_another_and_told() {
+    let mut studio = Studio::new("brdf_spheres", &settings(&["surface=gold"]));
+    let full = settings(&["accumulation=rgba32float"]);
+    let asked_for = studio.hdr("forward_single_pass", &full, SIZE);
+    assert_eq!(studio.renderer.take_warnings(), [] as [&str; 0]);
+    let drawn = studio.hdr("deferred_lighting", &full, SIZE);
+    let difference = mean_difference(&asked_for, &drawn);
+    assert!(difference > 4.0 * QUANTISATION, "{difference}");
+    let told = "deferred_lighting: 16 materials are drawn with another reflection model: \
+                8 of `beckmann` as `ward`, 8 of `ggx` as `ward`";
+    assert_eq!(studio.renderer.take_warnings(), [told]);
+
+    // The table of materials is another for each pipeline.
+    let again = studio.hdr("forward_single_pass", &full, SIZE);
+    assert_eq!(relative_difference(&asked_for, &again), 0.0);
+    assert_eq!(studio.renderer.take_warnings(), [] as [&str; 0]);
+}
+
 #[test]
 fn on_the_hard_cases() {
     for case in [
@@ -386,6 +431,23 @@ fn every_shipped_pipeline_is_compared() {
             "{} is not compared with the others",
             pipeline.name
         );
+    }
+}
+
+/// Each pipeline says of each reflection model whether it carries it, and why.
+#[test]
+fn every_shipped_pipeline_tells_of_every_reflection_model() {
+    for pipeline in list_pipelines(&Files::shipped()).unwrap() {
+        let desc = load_pipeline(&Files::shipped(), &pipeline.name, &settings(&[])).unwrap();
+        for model in ReflectionModel::ALL {
+            let told = desc.ability(&format!("brdf_{model}"));
+            let sentence = told.map_or("", |ability| ability.text.as_str());
+            assert!(
+                sentence.ends_with('.'),
+                "{} says nothing of {model}",
+                pipeline.name
+            );
+        }
     }
 }
 

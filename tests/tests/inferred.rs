@@ -120,6 +120,7 @@ fn full_size_buffers_give_the_picture_of_deferred_lighting() {
         ("cornell_box", &[]),
         ("hard_cases", &["case=wide_spot"]),
         ("hard_cases", &["case=panes"]),
+        ("brdf_spheres", &["surface=gold"]),
     ] {
         let mut studio = Studio::new("hard_cases", &settings(&["case=no_objects"]));
         if scene == "shapes" {

@@ -16,6 +16,7 @@ fn stencil_schemes_light_the_same_pixels() {
         ("hard_cases", "case=far_plane"),
         ("hard_cases", "case=wide_spot"),
         ("many_lights", "lights=600"),
+        ("brdf_spheres", "surface=gold"),
     ];
     for (scene, case) in cases {
         let mut studio = Studio::new(scene, &settings(&[case]));

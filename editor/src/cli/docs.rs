@@ -16,6 +16,8 @@ enum Page {
     Pipelines,
     /// What shaders can import: the modules of shaders/lib, with those of the project
     Shaders,
+    /// What experiments can call, to draw frames and look into them
+    Experiments,
 }
 
 /// Arguments of `lightbench docs`.
@@ -44,6 +46,7 @@ pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
     let text = match arguments.page {
         Page::Pipelines => reference::pipelines(files)?,
         Page::Shaders => reference::shaders(files)?,
+        Page::Experiments => reference::experiments(),
     };
     match &arguments.out {
         Some(out) => {

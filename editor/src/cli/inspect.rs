@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use clap::Args;
 use lightbench::assets::Progress;
-use lightbench::assets::files::Files;
-use lightbench::assets::images::{save_exr, save_png};
+use lightbench::assets::files::{Files, write_atomic};
+use lightbench::assets::images::save_png;
 use lightbench::lab::capture::STEP;
 use lightbench::lab::colormap::ColorMap;
 use lightbench::lab::heatmap::heat_map_with_legend;
 use lightbench::lab::inspect::{FrameInspector, Part};
 use lightbench::lab::metrics::Plane;
+use lightbench::lab::shown::{Shown, encode};
 use lightbench::render::description::Slice;
 use lightbench::render::heat_map::{self, HeatMap};
-use lightbench::render::inspect::{Aspect, part_in_words};
-use lightbench::render::problem::suggestion;
+use lightbench::render::inspect::{Aspect, Unknown, find_pass, last_writer, part_in_words};
 use lightbench::render::{PipelineDesc, TargetImage};
 
 use super::arguments::{GpuArguments, SceneArguments, Size};
@@ -157,7 +157,9 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     load::tell(&files, &mut scene);
     let desc = pipeline.desc.clone();
     let pass = arguments.pass.as_deref();
-    let pass = pass.map(|pass| find_pass(&desc, pass)).transpose()?;
+    let unknown = |unknown: Unknown| Usage(unknown.to_string());
+    let pass = pass.map(|pass| find_pass(&desc, pass).map_err(unknown));
+    let pass = pass.transpose()?;
 
     let size = arguments.size.into();
     let mut inspector = FrameInspector::new(
@@ -171,7 +173,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     if let (Some(target), Some(out)) = (&arguments.target, &arguments.out) {
         let pass = match pass {
             Some(pass) => pass,
-            None => last_writer(&desc, target)?,
+            None => last_writer(&desc, target).map_err(unknown)?,
         };
         let part = Part {
             slice: Slice {
@@ -186,9 +188,12 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
             },
         };
         let image = inspector.target(pass, target, part)?;
-        let channel = arguments.channel.map(channel).transpose()?;
-        let range = range.unwrap_or([0.0, 1.0]);
-        save(&image, channel, range, arguments.false_colour, out)?;
+        let shown = Shown {
+            channel: arguments.channel.map(channel).transpose()?,
+            range: range.unwrap_or([0.0, 1.0]),
+            false_colour: arguments.false_colour,
+        };
+        save(&image, shown, out)?;
         say(out.display().to_string())?;
     }
     if let (Some(map), Some(out), Some(counts)) = (HeatMap::of(&desc), &arguments.out, &desc.hdr) {
@@ -233,75 +238,15 @@ fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], Usage> {
     })
 }
 
-fn find_pass(desc: &PipelineDesc, wanted: &str) -> Result<usize, Usage> {
-    let names = || desc.passes.iter().map(|pass| pass.name.as_str());
-    let number = wanted.parse().ok();
-    names()
-        .position(|name| name == wanted)
-        .or(number.filter(|number| *number < desc.passes.len()))
-        .ok_or_else(|| {
-            let hint = suggestion(wanted, names()).unwrap_or_else(|| {
-                format!("the passes are: {}", names().collect::<Vec<_>>().join(", "))
-            });
-            Usage(format!("`{}` has no pass `{wanted}`: {hint}", desc.name))
-        })
-}
-
-fn last_writer(desc: &PipelineDesc, target: &str) -> Result<usize, Usage> {
-    let writes = |name: &str| name == target;
-    let found = desc
-        .passes
-        .iter()
-        .rposition(|pass| lightbench::render::life::writes(pass).any(writes));
-    found.ok_or_else(|| {
-        let names = || desc.targets.iter().map(|target| target.name.as_str());
-        let hint = suggestion(target, names()).unwrap_or_else(|| {
-            format!(
-                "the targets are: {}",
-                names().collect::<Vec<_>>().join(", ")
-            )
-        });
-        Usage(format!("`{}` has no target `{target}`: {hint}", desc.name))
-    })
-}
-
 fn channel(letter: char) -> Result<usize, Usage> {
     "rgba"
         .find(letter)
         .ok_or_else(|| Usage(format!("--channel {letter}: write r, g, b or a")))
 }
 
-fn save(
-    image: &TargetImage,
-    channel: Option<usize>,
-    [low, high]: [f32; 2],
-    false_colour: bool,
-    path: &Path,
-) -> anyhow::Result<()> {
-    // One channel alone is grey.
-    let single = channel.or((image.channels == 1).then_some(0));
-    let picked = image.texels.iter().map(|texel| match single {
-        Some(channel) => [texel[channel], texel[channel], texel[channel], 1.0],
-        None => *texel,
-    });
-    if path.extension().is_some_and(|ending| ending == "exr") {
-        let pixels: Vec<f32> = picked.flatten().collect();
-        save_exr(path, image.width, image.height, &pixels)?;
-        return Ok(());
-    }
-    let share = |value: f32| ((value - low) / (high - low)).clamp(0.0, 1.0);
-    let byte = |value: f32| (share(value) * 255.0).round() as u8;
-    let pixels: Vec<u8> = picked
-        .flat_map(|[r, g, b, _]| {
-            let color = if false_colour {
-                ColorMap::Viridis.color(share(r))
-            } else {
-                [byte(r), byte(g), byte(b)]
-            };
-            [color[0], color[1], color[2], 255]
-        })
-        .collect();
-    save_png(path, image.width, image.height, &pixels)?;
+fn save(image: &TargetImage, shown: Shown, path: &Path) -> anyhow::Result<()> {
+    let bytes = encode(&path.display().to_string(), image, shown)?;
+    write_atomic(path, &bytes)?;
     Ok(())
 }
 
@@ -316,7 +261,11 @@ fn save_heat_map(
     let largest = values.iter().copied().fold(0.0, f32::max);
     let sum: f64 = values.iter().copied().map(f64::from).sum();
     if path.extension().is_some_and(|ending| ending == "exr") {
-        save(counts, Some(0), [0.0, 1.0], false, path)?;
+        let shown = Shown {
+            channel: Some(0),
+            ..Shown::default()
+        };
+        save(counts, shown, path)?;
     } else {
         let plane = Plane {
             width: counts.width as usize,

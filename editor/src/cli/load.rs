@@ -6,7 +6,7 @@ use anyhow::{Context as _, anyhow};
 use lightbench::assets::files::Files;
 use lightbench::assets::{Assets, Progress};
 use lightbench::lab::LdrImage;
-use lightbench::render::{Gpu, Pipeline, PipelineDesc, Renderer, View};
+use lightbench::render::{Compiler, Gpu, Pipeline, PipelineDesc, Renderer, Variants, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 use lightbench::world::{Light, LightKind, World};
 
@@ -90,7 +90,9 @@ pub fn scripts(files: &mut Files, request: &Request) -> anyhow::Result<Scripts> 
     })
 }
 
-/// Loads the scene on one thread while the device opens and the pipelines compile on another.
+/// Loads the scene on one thread while the device opens and the pipelines compile on another. What
+/// draws other reflection models than the default one is compiled afterwards, for scenes that have
+/// them or may yet make them: it is half of all that there is to compile.
 ///
 /// # Errors
 /// Mistakes in a script or a shader, a model that can't be read, no driver, or Ctrl-C.
@@ -103,7 +105,11 @@ pub fn stage(files: &mut Files, request: &Request, progress: &Progress) -> anyho
     let (scene, drawing) = thread::scope(|threads| {
         let scene =
             threads.spawn(|| load_scene(files, &scripts.scene, &scripts.scene_settings, &loading));
-        let drawing = open_and_compile(files, request.gpu, &scripts.descriptions);
+        let drawing = open(request.gpu).and_then(|(renderer, mut compiler)| {
+            let variants = Variants::DEFAULT_MODEL;
+            let pipelines = compile(&mut compiler, files, &scripts.descriptions, variants)?;
+            Ok((renderer, compiler, pipelines))
+        });
         if drawing.is_err() {
             // Nobody will see the scene.
             loading.cancel();
@@ -112,7 +118,7 @@ pub fn stage(files: &mut Files, request: &Request, progress: &Progress) -> anyho
     });
     drop(bar);
     super::progress::stop_on_ctrl_c(progress);
-    let (renderer, pipelines) = drawing?;
+    let (renderer, mut compiler, mut pipelines) = drawing?;
     let scene = scene.map_err(|_| anyhow!("loading the scene failed"))?;
     if loading.is_cancelled() {
         return Err(Stopped.into());
@@ -129,6 +135,9 @@ pub fn stage(files: &mut Files, request: &Request, progress: &Progress) -> anyho
         .map(|parameter| parameter.name.as_str());
     scripts.given.check_owners(&scripts.descriptions, names)?;
     tell(files, &mut scene);
+    if scene.has_update() || scene.assets.reflection_models().has_others() {
+        pipelines = compile(&mut compiler, files, &scripts.descriptions, Variants::ALL)?;
+    }
     Ok(Stage {
         renderer,
         scene,
@@ -136,20 +145,24 @@ pub fn stage(files: &mut Files, request: &Request, progress: &Progress) -> anyho
     })
 }
 
-fn open_and_compile(
-    files: &Files,
-    gpu: &GpuArguments,
-    descriptions: &[PipelineDesc],
-) -> anyhow::Result<(Renderer, Vec<Pipeline>)> {
+fn open(gpu: &GpuArguments) -> anyhow::Result<(Renderer, Compiler)> {
     let renderer = Renderer::new(Gpu::open(&gpu.options())?);
-    let mut compiler = renderer.compiler();
+    let compiler = renderer.compiler();
+    Ok((renderer, compiler))
+}
+
+fn compile(
+    compiler: &mut Compiler,
+    files: &Files,
+    descriptions: &[PipelineDesc],
+    variants: Variants,
+) -> anyhow::Result<Vec<Pipeline>> {
     let pipelines = descriptions.iter().map(|desc| {
         compiler
-            .compile(files, desc)
+            .compile_for(files, desc, variants)
             .map_err(|problems| report::problems(files, problems))
     });
-    let pipelines = pipelines.collect::<Result<_, _>>()?;
-    Ok((renderer, pipelines))
+    pipelines.collect()
 }
 
 /// Passes on what the scene's script printed, with the warnings of its models.

@@ -19,6 +19,7 @@ mod progress;
 mod project;
 mod render;
 mod report;
+mod run;
 mod save;
 mod settings;
 
@@ -65,6 +66,8 @@ enum Command {
     Render(render::Arguments),
     /// Shows what the targets of a frame hold after each pass
     Inspect(inspect::Arguments),
+    /// Runs an experiment: a script that draws frames, looks into them and says what it found
+    Run(run::Arguments),
     /// Measures pipelines on one scene and writes a report
     Compare(compare::Arguments),
     /// Says how far apart two pictures are
@@ -79,7 +82,7 @@ enum Command {
     Copy(copy::Arguments),
     /// Checks a pipeline and prints every mistake in it
     CheckPipeline(check_pipeline::Arguments),
-    /// Prints the reference of pipeline files or of the shader library
+    /// Prints the reference of pipeline files, of the shader library or of experiments
     Docs(docs::Arguments),
     /// Says what is here, what is missing, and how to mend it
     Doctor,
@@ -122,6 +125,7 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Edit(arguments) => edit::run(&arguments, files()?),
         Command::Render(arguments) => render::run(&arguments, files()?),
         Command::Inspect(arguments) => inspect::run(&arguments, files()?),
+        Command::Run(arguments) => run::run(&arguments, files()?),
         Command::Compare(arguments) => compare::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),

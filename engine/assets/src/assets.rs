@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 use lightbench_world::{MaterialId, MeshBounds, MeshId};
 use thiserror::Error;
 
-use crate::{Material, Mesh, Texture, TextureId};
+use crate::{Material, Mesh, ReflectionModels, Texture, TextureId};
 
 /// An item and the revision at which it got its present value.
 #[derive(Clone, Debug)]
@@ -290,6 +290,14 @@ impl Assets {
     #[must_use]
     pub fn materials(&self) -> &[Entry<Material>] {
         &self.materials.entries
+    }
+
+    /// The reflection models that materials ask for.
+    #[must_use]
+    pub fn reflection_models(&self) -> ReflectionModels {
+        let entries = self.materials.entries.iter();
+        let models = entries.map(|entry| entry.value.reflection.model());
+        models.fold(ReflectionModels::default(), ReflectionModels::with)
     }
 
     /// All textures; the place in the slice is the id.

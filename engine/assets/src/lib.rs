@@ -61,6 +61,7 @@ pub mod obj;
 pub mod procedural;
 pub mod procedural_texture;
 mod progress;
+pub mod reflection;
 mod rows;
 mod smooth_groups;
 mod tangents;
@@ -73,6 +74,7 @@ pub use lightbench_world::{MaterialId, MeshBounds, MeshId};
 pub use material::Material;
 pub use mesh::{Mesh, MeshError};
 pub use progress::{Cancelled, Progress, Task, TaskLost};
+pub use reflection::{Reflection, ReflectionModel, ReflectionModels};
 pub use texture::{MAX_TEXTURE_SIZE, Texture, TextureError, TextureFormat, TextureId};
 
 /// A value brought into a range; what is no number becomes its lower end.

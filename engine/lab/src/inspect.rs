@@ -2,8 +2,8 @@
 //! which of them made values that are no numbers.
 
 use lightbench_assets::files::Files;
-use lightbench_render::description::Slice;
-use lightbench_render::inspect::{Aspect, Invalid, PixelValue, ProbeRequest, Probed};
+use lightbench_render::inspect::{Aspect, PixelValue, ProbeRequest, Probed};
+pub use lightbench_render::inspect::{FirstInvalid, Part};
 use lightbench_render::{Pipeline, RenderError, Renderer, TargetImage, View};
 use lightbench_script::Scene;
 
@@ -18,28 +18,6 @@ pub struct FrameInspector<'a> {
     pipeline: &'a mut Pipeline,
     size: (u32, u32),
     frame: u32,
-}
-
-/// Which part of a target to read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Part {
-    /// Mip level and layer.
-    pub slice: Slice,
-    /// Which sample; without one the mean of all.
-    pub sample: Option<u32>,
-    /// Colours or depth, or stencil.
-    pub aspect: Aspect,
-}
-
-/// The first values that are no numbers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FirstInvalid {
-    /// The pass that left them.
-    pub pass: String,
-    /// Where, and how many.
-    pub place: Invalid,
-    /// The first texel.
-    pub value: [f32; 4],
 }
 
 impl<'a> FrameInspector<'a> {
@@ -62,6 +40,15 @@ impl<'a> FrameInspector<'a> {
             size,
             frame,
         }
+    }
+
+    /// Draws the whole frame, to see that it can be drawn.
+    ///
+    /// # Errors
+    /// Where it can't.
+    pub fn whole(&mut self) -> Result<(), RenderError> {
+        self.pipeline.stop_after(None);
+        self.draw()
     }
 
     /// A part of a target, as a pass leaves it.

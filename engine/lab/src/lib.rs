@@ -14,7 +14,7 @@
 //! - [`mod@reference`] has the shaders' formulas on the CPU.
 //!
 //! - [`capture`] takes a picture of a scene, [`inspect`] looks into its frame pass by pass,
-//!   [`measure`] times pipelines on it. They need a GPU; the
+//!   [`experiment`] does both for scripts, [`measure`] times pipelines on it. They need a GPU; the
 //!   rest doesn't.
 //!
 //! ```
@@ -34,6 +34,7 @@ pub mod capture;
 pub mod colormap;
 pub mod diff;
 mod error;
+pub mod experiment;
 pub mod files;
 pub mod heatmap;
 pub mod inspect;
@@ -42,6 +43,7 @@ pub mod metrics;
 mod picture;
 pub mod reference;
 pub mod report;
+pub mod shown;
 pub mod statistics;
 
 pub use error::LabError;

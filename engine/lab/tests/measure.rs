@@ -43,6 +43,31 @@ fn project() -> (tempfile::TempDir, Files) {
     (folder, files)
 }
 
+/// A report says what a pipeline drew with another reflection model than was asked for.
+#[test]
+fn replaced_reflection_models_are_counted_in_the_notes() {
+    let (folder, files) = project();
+    let scene = SCENE.replace(".color(0.8, 0.4, 0.2)", ".color(0.8, 0.4, 0.2).ggx(0.3)");
+    std::fs::write(folder.path().join("scripts/scenes/moving.rhai"), scene).unwrap();
+    let names = ["forward_single_pass", "deferred_lighting"];
+    let (mut renderer, mut scene, mut pipelines) = stage(&names, &files);
+    let options = MeasureOptions {
+        size: (48, 27),
+        warmup: 1,
+        frames: 3,
+    };
+    let (renderer, scene) = (&mut renderer, &mut scene);
+    let measured = measure(renderer, scene, &mut pipelines, options, &Progress::new()).unwrap();
+    let notes: Vec<_> = measured.pipelines.iter().map(|p| &p.notes[..]).collect();
+    let told = "1 material is drawn with another reflection model: 1 of `ggx` as `ward`";
+    assert_eq!(notes, [&[][..], &[told.to_owned()]]);
+    // Once, although pipelines took turns.
+    assert_eq!(
+        renderer.take_warnings(),
+        [format!("deferred_lighting: {told}")]
+    );
+}
+
 const NAMES: [&str; 2] = ["forward_single_pass", "deferred_shading"];
 
 #[test]

@@ -4,6 +4,7 @@ use crate::attachments::Attachments;
 use crate::binding::Source;
 use crate::description::{Amount, Dispatch, PassDesc, PassKind};
 use crate::engine_buffers::EngineBuffers;
+use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::gpu_pipelines::{ComputePipeline, PassPipelines};
 use crate::parameters::ParameterBlock;
@@ -14,6 +15,10 @@ use crate::targets::Targets;
 pub struct CompiledPass {
     /// Its GPU pipelines.
     pub pipelines: PassPipelines,
+    /// The same for frames with reflection models beside the default one, where the pass lights
+    /// surfaces that another pass has drawn. Geometry passes choose by material instead: see
+    /// [`crate::variant::Variant`].
+    pub for_other_models: Option<PassPipelines>,
     /// What group 1 holds.
     pub sources: Vec<(u32, Source)>,
     /// The layout of group 1.
@@ -40,6 +45,7 @@ impl CompiledPass {
     ) -> Self {
         Self {
             pipelines,
+            for_other_models: None,
             sources,
             target_layout,
             target_group: None,
@@ -47,6 +53,14 @@ impl CompiledPass {
             attachments: Attachments::default(),
             workgroups: [1; 3],
             list: None,
+        }
+    }
+
+    /// Its GPU pipelines for a frame.
+    pub fn pipelines(&self, frame: &Frame) -> &PassPipelines {
+        match &self.for_other_models {
+            Some(pipelines) if frame.variants.has_other_models() => pipelines,
+            _ => &self.pipelines,
         }
     }
 

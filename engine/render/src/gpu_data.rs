@@ -79,20 +79,22 @@ pub struct DrawnObject {
 pub struct MaterialData {
     /// Linear reflectance.
     pub base_color: Vec3,
+    /// Number of the reflection model.
+    pub model: u32,
     /// Specular reflectance.
-    pub specular: f32,
+    pub specular: Vec3,
+    /// Alpha below which fragments are discarded.
+    pub alpha_cutoff: f32,
     /// Radiance.
     pub emissive: Vec3,
-    /// Blinn-Phong exponent.
-    pub power: f32,
+    /// The share of what lies behind that it hides.
+    pub opacity: f32,
+    /// The model's parameters: exponent; or roughness along the tangent and across it.
+    pub lobe: [f32; 2],
     /// Bucket and layer, or [`NO_TEXTURE`].
     pub base_color_texture: u32,
     /// Bucket and layer, or [`NO_TEXTURE`].
     pub normal_texture: u32,
-    /// Alpha below which fragments are discarded.
-    pub alpha_cutoff: f32,
-    /// The share of what lies behind that it hides.
-    pub opacity: f32,
 }
 
 /// One light; `Light` in WGSL.
@@ -266,15 +268,17 @@ mod tests {
         check::<MaterialData>(
             "Material",
             &[
+                ("model", offset_of!(MaterialData, model)),
                 ("specular", offset_of!(MaterialData, specular)),
+                ("alpha_cutoff", offset_of!(MaterialData, alpha_cutoff)),
                 ("emissive", offset_of!(MaterialData, emissive)),
-                ("power", offset_of!(MaterialData, power)),
+                ("opacity", offset_of!(MaterialData, opacity)),
+                ("lobe", offset_of!(MaterialData, lobe)),
                 (
                     "base_color_texture",
                     offset_of!(MaterialData, base_color_texture),
                 ),
                 ("normal_texture", offset_of!(MaterialData, normal_texture)),
-                ("alpha_cutoff", offset_of!(MaterialData, alpha_cutoff)),
             ],
         );
         check::<LightData>(

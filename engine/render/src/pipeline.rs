@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use lightbench_assets::ReflectionModels;
+
 use crate::binding::{EngineBuffer, Source};
 use crate::compiled_pass::CompiledPass;
 use crate::description::{Amount, Dispatch, Lights, PassKind, PipelineDesc};
@@ -10,6 +12,7 @@ use crate::frame::{ListKey, ShadowKey};
 use crate::gpu::Gpu;
 use crate::life::Lives;
 use crate::queries::Measured;
+use crate::scene::ReplacedModels;
 use crate::targets::Targets;
 use crate::variant::Variants;
 
@@ -42,6 +45,10 @@ pub struct Pipeline {
     pub(crate) lists: Vec<ListKey>,
     /// The lists of lights that its lights passes need, each once.
     pub(crate) light_lists: Vec<Lights>,
+    /// The reflection models that it carries.
+    pub(crate) models: ReflectionModels,
+    /// What was told of materials that are drawn with another model.
+    pub(crate) told_models: ReplacedModels,
     /// The views that its shadow passes draw, each once.
     pub(crate) shadow_lists: Vec<ShadowKey>,
     lives: Lives,
@@ -84,6 +91,8 @@ impl Pipeline {
         }
         Self {
             lives: Lives::of(&desc),
+            models: desc.reflection_models(),
+            told_models: ReplacedModels::default(),
             grown: vec![0; desc.buffers.len()],
             desc,
             declared,

@@ -115,6 +115,9 @@ pub struct Queries {
     ring: Vec<Slot>,
     current: Option<usize>,
     period_ns: f64,
+    /// What came back last, and the memory of what came before.
+    found: Vec<Measured>,
+    spare: Vec<Measured>,
 }
 
 impl Queries {
@@ -156,6 +159,8 @@ impl Queries {
                 .collect(),
             current: None,
             period_ns: f64::from(gpu.queue.get_timestamp_period()),
+            found: Vec::new(),
+            spare: Vec::new(),
         }
     }
 
@@ -291,14 +296,17 @@ impl Queries {
             });
     }
 
-    /// Results that have come back, oldest frame first. The device must be polled for them.
-    pub fn collect(&mut self) -> Vec<Measured> {
-        let mut found = Vec::new();
+    /// Results that have come back, oldest frame first, until the next call. The device must be polled
+    /// for them.
+    pub fn collect(&mut self) -> &[Measured] {
+        self.spare.append(&mut self.found);
         for slot in &self.ring {
             match slot.state.load(Ordering::Acquire) {
                 READY => {
                     if let Ok(view) = slot.buffer.get_mapped_range(..) {
-                        found.push(self.read(slot, &view));
+                        let mut measured = self.spare.pop().unwrap_or_default();
+                        self.read(slot, &view, &mut measured);
+                        self.found.push(measured);
                     }
                     slot.buffer.unmap();
                     slot.state.store(IDLE, Ordering::Release);
@@ -307,11 +315,12 @@ impl Queries {
                 _ => {}
             }
         }
-        found.sort_by_key(|measured| measured.frame);
-        found
+        self.found.sort_unstable_by_key(|measured| measured.frame);
+        &self.found
     }
 
-    fn read(&self, slot: &Slot, bytes: &[u8]) -> Measured {
+    /// Fills `out`, whose memory it takes.
+    fn read(&self, slot: &Slot, bytes: &[u8], out: &mut Measured) {
         let long = |at: u64| {
             let at = at as usize;
             let bytes = bytes
@@ -329,33 +338,29 @@ impl Queries {
         let stamp = |index: u32| long(u64::from(index) * RESULT);
         let ms = |from: u64, to: u64| to.saturating_sub(from) as f64 * self.period_ns * 1e-6;
         let plan = &slot.plan;
-        let statistic = |which: u64| -> Vec<u64> {
-            let places = plan.places.iter().filter(|_| self.statistics.is_some());
-            places
-                .map(|place| {
-                    place.invocations.map_or(0, |at| {
-                        long(STATISTICS_AT + (u64::from(at) * STATISTICS + which) * RESULT)
-                    })
-                })
-                .collect()
-        };
         let timed = self.timestamps.is_some();
-        let places = plan.places.iter().filter(|_| timed);
-        Measured {
-            frame: slot.frame,
-            gpu_ms: places
-                .map(|place| {
-                    place
-                        .time
-                        .map_or(0.0, |at| ms(stamp(at * 2), stamp(at * 2 + 1)))
-                })
-                .collect(),
-            total_ms: (timed && plan.times > 0).then(|| ms(stamp(0), stamp(plan.times * 2 - 1))),
-            vertices: statistic(0),
-            fragments: statistic(1),
-            counters: (0..plan.counters)
-                .map(|counter| word(COUNTERS_AT + counter as u64 * 4))
-                .collect(),
+        out.frame = slot.frame;
+        out.total_ms = (timed && plan.times > 0).then(|| ms(stamp(0), stamp(plan.times * 2 - 1)));
+        out.gpu_ms.clear();
+        if timed {
+            out.gpu_ms.extend(plan.places.iter().map(|place| {
+                let time = place.time;
+                time.map_or(0.0, |at| ms(stamp(at * 2), stamp(at * 2 + 1)))
+            }));
         }
+        for (which, values) in [(0, &mut out.vertices), (1, &mut out.fragments)] {
+            values.clear();
+            if self.statistics.is_some() {
+                values.extend(plan.places.iter().map(|place| {
+                    let at =
+                        |at: u32| STATISTICS_AT + (u64::from(at) * STATISTICS + which) * RESULT;
+                    place.invocations.map_or(0, |index| long(at(index)))
+                }));
+            }
+        }
+        out.counters.clear();
+        let counters = 0..plan.counters as u64;
+        out.counters
+            .extend(counters.map(|counter| word(COUNTERS_AT + counter * 4)));
     }
 }

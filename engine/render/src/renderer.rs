@@ -167,12 +167,15 @@ impl Renderer {
     }
 
     /// Tells the renderer that another world and other assets come next. Meshes and textures that
-    /// both scenes share, by their revision, stay on the device.
+    /// both scenes share, by their revision, stay on the device. What was seen of the last scene is
+    /// no earlier view of the next.
     pub fn reset_scene(&mut self) {
         self.scene.reset();
+        self.views = Views::default();
     }
 
-    /// What had to be changed for the scene to fit the device, once.
+    /// What had to be changed for the scene to fit the device, and materials whose reflection model a
+    /// pipeline does not carry, once.
     pub fn take_warnings(&mut self) -> Vec<String> {
         self.scene.take_warnings()
     }
@@ -319,13 +322,17 @@ impl Renderer {
 
         let started = Instant::now();
         systems::update_computed(world, assets.mesh_bounds());
-        self.scene.sync_assets(assets).map_err(RenderError::Scene)?;
+        self.scene
+            .sync_assets(assets, pipeline.models)
+            .map_err(RenderError::Scene)?;
+        self.tell_models(pipeline);
         let (copying, ()) = SystemTime::of("changed rows", || self.scene.sync_world(world));
         let request = FrameRequest {
             view: *view,
             size: (width, height),
             time: time as f32,
             index: self.index,
+            models: pipeline.models,
             previous: self.views.before(self.index),
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
@@ -371,6 +378,19 @@ impl Renderer {
     fn upload(&mut self, pipeline: &Pipeline) -> wgpu::BindGroup {
         self.frame.data.history_frames = pipeline.history_frames();
         self.scene.upload(&self.frame).clone()
+    }
+
+    /// Warns once where a pipeline does not carry the reflection models of the scene's materials.
+    fn tell_models(&mut self, pipeline: &mut Pipeline) {
+        let replaced = self.scene.replaced_models();
+        self.statistics.replaced_models = replaced;
+        if pipeline.told_models != replaced {
+            pipeline.told_models = replaced;
+            if replaced.total() > 0 {
+                let name = &pipeline.desc.name;
+                self.scene.warn(format!("{name}: {replaced}"));
+            }
+        }
     }
 
     /// As [`Renderer::render`], but waits for the counters of pipelines whose buffers may be too
@@ -429,11 +449,11 @@ impl Renderer {
         self.scene.lights()
     }
 
-    /// Query results that have come back, without waiting.
+    /// Query results that have come back, without waiting; until the next call.
     ///
     /// # Errors
     /// When the device failed.
-    pub fn poll(&mut self) -> Result<Vec<Measured>, GpuError> {
+    pub fn poll(&mut self) -> Result<&[Measured], GpuError> {
         if let Err(error) = self.gpu.device.poll(wgpu::PollType::Poll) {
             return Err(GpuError::Driver(error.to_string()));
         }
@@ -447,7 +467,7 @@ impl Renderer {
     /// When the device failed or takes longer than `seconds`.
     pub fn finish(&mut self, seconds: u64) -> Result<Vec<Measured>, GpuError> {
         self.gpu.wait(seconds)?;
-        Ok(self.queries.collect())
+        Ok(self.queries.collect().to_vec())
     }
 
     /// The display-ready picture of the last frame, 8 bits a channel, sRGB, rows from the top.

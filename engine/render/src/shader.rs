@@ -53,6 +53,14 @@ pub struct Shader {
     pub fingerprint: u64,
 }
 
+impl Shader {
+    /// Whether its text, or that of a module which it imports, directly or not, has a word.
+    pub fn mentions(&self, word: &str) -> bool {
+        let mut files = self.listings.all();
+        files.any(|listing| listing.text.contains(word))
+    }
+}
+
 /// Composes shaders from files and remembers the modules that they import.
 pub struct ShaderComposer {
     composer: Composer,

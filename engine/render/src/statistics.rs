@@ -3,6 +3,7 @@
 //! Bytes are modelled, not measured: see [`crate::traffic`].
 
 use crate::pipeline::Pipeline;
+use crate::scene::ReplacedModels;
 use crate::traffic::Traffic;
 
 /// The cost of one pass in one frame.
@@ -67,6 +68,9 @@ pub struct FrameStatistics {
     pub uploaded_bytes: u64,
     /// Memory of all targets and buffers of the pipeline.
     pub target_bytes: u64,
+    /// Materials that are drawn with another reflection model than they ask for, since the pipeline
+    /// does not carry theirs.
+    pub replaced_models: ReplacedModels,
     /// Memory that targets would take beyond that if none shared its texture with another.
     pub saved_bytes: u64,
 }

@@ -6,7 +6,8 @@ mod support;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use lightbench_assets::{Material, procedural};
+use lightbench_assets::{Material, Reflection, procedural};
+use lightbench_render::description::Ability;
 use lightbench_render::variant::Variant;
 use lightbench_render::{Pipeline, RenderError, Variants, View};
 use lightbench_world::Transform;
@@ -117,7 +118,7 @@ fn a_pipeline_is_built_for_the_variants_that_are_asked_for() {
     };
     assert_eq!(missing, {
         let mut set = Variants::default();
-        set.insert(Variant::new(true, false, false));
+        set.insert(Variant::new(true, false, false, false));
         set
     });
     let more = plain.or(missing);
@@ -128,6 +129,59 @@ fn a_pipeline_is_built_for_the_variants_that_are_asked_for() {
     let mut all = compiler.compile(&bench.files, &desc).unwrap();
     assert_eq!(warm(&mut bench, &mut all), 0);
     assert!(render(&mut bench, &mut all) == with_cloth);
+}
+
+/// Passes that light a G-buffer have a second version for reflection models beside the default one,
+/// which is built, warmed and drawn with only where such a surface is drawn.
+#[test]
+fn other_reflection_models_are_built_for_who_draws_them() {
+    let mut bench = Bench::new();
+    bench.field();
+    bench.point(Vec3::new(0.0, 2.0, 1.0), 8.0, 4.0);
+    let mut desc = deferred("rgba16float", true);
+    desc.abilities.push(Ability {
+        name: "brdf_ggx".to_owned(),
+        at: desc.file.clone(),
+        supported: true,
+        text: String::new(),
+    });
+    let mut compiler = bench.renderer.compiler();
+    let plain = Variants::DEFAULT_MODEL;
+    let mut pipeline = compiler.compile_for(&bench.files, &desc, plain).unwrap();
+    let before = render(&mut bench, &mut pipeline);
+
+    let shiny = bench.assets.add_material(Material {
+        specular: Vec3::ONE,
+        reflection: Reflection::Ggx { roughness: 0.2 },
+        ..Material::default()
+    });
+    // Nothing drawn has the material: nothing is missing, and nothing changes.
+    assert!(render(&mut bench, &mut pipeline) == before);
+    let ball = bench.assets.add_mesh(procedural::uv_sphere(0.4, 24, 12));
+    let at = Transform::from_translation(Vec3::new(0.0, 2.0, 0.0));
+    bench.object(ball, shiny, at);
+    let (world, assets) = (&mut bench.world, &bench.assets);
+    let result = bench
+        .renderer
+        .render(world, assets, &mut pipeline, &view(), SIZE, 0.0);
+    let Err(RenderError::NotBuilt(missing)) = result else {
+        panic!("{result:?}");
+    };
+    assert!(missing.has_other_models());
+
+    let more = plain.or(missing);
+    let mut pipeline = compiler.compile_for(&bench.files, &desc, more).unwrap();
+    // The ball in the G-buffer, and the light on it; the rest was drawn with before.
+    assert_eq!(warm(&mut bench, &mut pipeline), 2);
+    let with_ball = render(&mut bench, &mut pipeline);
+    assert_eq!(bench.renderer.take_warnings(), [] as [&str; 0]);
+
+    // A pipeline that carries no other model needs no other version, and draws something else.
+    desc.abilities.clear();
+    let mut poor = compiler.compile_for(&bench.files, &desc, plain).unwrap();
+    let replaced = render(&mut bench, &mut poor);
+    assert!(replaced != with_ball && replaced != before);
+    assert_eq!(bench.renderer.take_warnings().len(), 1);
 }
 
 #[test]

@@ -268,6 +268,11 @@ impl Arguments<'_, '_, '_, '_> {
         }
     }
 
+    /// Whether an argument is a number.
+    pub(crate) fn is_number(&self, index: usize) -> bool {
+        as_number(self.value(index)).is_some()
+    }
+
     /// A finite number as `f32`.
     pub(crate) fn float(&self, index: usize) -> Result<f32, Mistake> {
         self.number(index).map(|number| number as f32)
@@ -386,6 +391,11 @@ impl Arguments<'_, '_, '_, '_> {
             self.entry.name,
             self.entry.arguments.join(", ")
         ))
+    }
+
+    /// A value in plain words.
+    pub(crate) fn describe(&self, value: &Dynamic) -> String {
+        describe(self.context.engine(), value)
     }
 
     fn name(&self, index: usize) -> &str {

@@ -1,8 +1,10 @@
-//! The Rhai interface: scenes and pipelines.
+//! The Rhai interface: scenes, pipelines and experiments.
 //!
 //! - [`load_pipeline`] evaluates a file of `scripts/pipelines/` into a
 //!   [`PipelineDesc`](lightbench_render::PipelineDesc).
 //! - [`load_scene`] runs a file of `scripts/scenes/` into a [`Scene`], whose script may move it.
+//! - [`run_experiment`] runs a file of `scripts/experiments/`, which looks into frames through a
+//!   [`Laboratory`].
 //!
 //! Scripts are not trusted. They reach no file outside of the project, and [`Limits`] bound their
 //! time, their memory and the size of everything they make. Every mistake is a
@@ -14,6 +16,7 @@ mod api;
 mod color;
 mod compile;
 mod errors;
+mod experiment;
 mod host;
 #[cfg(test)]
 mod hostile_tests;
@@ -25,6 +28,7 @@ mod memory;
 mod message_tests;
 mod names;
 mod noise;
+mod parameters;
 mod pipeline;
 mod random;
 pub mod reference;
@@ -37,13 +41,17 @@ mod syntax;
 #[cfg(test)]
 mod testing;
 
+pub use experiment::{
+    EXPERIMENTS, Laboratory, LaboratoryError, Shot, experiment_names, run_experiment,
+};
 pub use limits::Limits;
 pub use log::LogLine;
 pub use memory::CountingAllocator;
 pub use names::{Entry, Names};
+pub use parameters::{SceneParameter, SceneParameterKind};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
-    SCENE_EXTENSION, SCENES, Scene, SceneEntry, SceneParameter, SceneParameterKind, list_scenes,
-    load_scene, load_scene_within, scene_names,
+    SCENE_EXTENSION, SCENES, Scene, SceneEntry, list_scenes, load_scene, load_scene_within,
+    scene_names,
 };
 pub use settings::{SettingValue, Settings};

@@ -16,7 +16,7 @@ fn problem(text: &str) -> Option<Problem> {
 /// A script, the line of its mistake, a part of the message, a part of the help.
 type Row = (&'static str, u32, &'static str, &'static str);
 
-const MISTAKES: [Row; 46] = [
+const MISTAKES: [Row; 53] = [
     // Writing.
     ("let x = 1\nlet y = 2;", 1, "a `;` is missing", ""),
     (
@@ -186,6 +186,49 @@ const MISTAKES: [Row; 46] = [
         "0 to 1",
     ),
     (
+        "material(\"m\").specular(rgb(0, 2, 0));",
+        1,
+        "can't mirror more light",
+        "0 to 1",
+    ),
+    // A model takes its own parameters, whichever was named first.
+    (
+        "material(\"m\")\n    .ggx(0.3)\n    .power(40);",
+        3,
+        "a `ggx` material takes `roughness`, not `power`",
+        ".ggx(0.25)",
+    ),
+    (
+        "material(\"m\").power(40)\n    .ward(0.3, 0.1);",
+        2,
+        "a `ward` material takes a roughness `along` the tangent and one `across` it, not `power`",
+        "leave out .power",
+    ),
+    (
+        "material(\"m\").roughness(0.3);",
+        1,
+        "a `blinn_phong` material takes `power`, not `roughness`",
+        ".power(32)",
+    ),
+    (
+        "material(\"m\").ward(0.3);",
+        1,
+        "`.ward` can't be called with one argument",
+        ".ward(along, across)",
+    ),
+    (
+        "material(\"m\").beckmann(0);",
+        1,
+        "`roughness` of `beckmann` must be from 0.0263 to 1, not 0",
+        "",
+    ),
+    (
+        "material(\"m\").ggxx(0.3);",
+        1,
+        "a material has no method `ggxx`",
+        "did you mean `ggx`?",
+    ),
+    (
         "let n = param(\"n\", 4);",
         1,
         "needs its smallest and its largest",
@@ -286,6 +329,7 @@ const CALLS: &[&str] = &[
     "mesh(arch(1, 2, 1).span(180).voussoirs(5).joint(0)).triangles",
     "mesh(cloth(1, 2).waves(3, 1).sag(1).seed(2)).triangles",
     "material(\"m\").color(1, 1, 1).specular(1).power(32).emissive(1, 2, 3).cutoff(1).opacity(1); 1",
+    "material(\"m\").specular(1, 0, 1).blinn_phong(32).phong(8).beckmann(1).ggx(1).roughness(1).ward(1, 1); 1",
     "material(\"m\").surface(stone_texture().size(8).seed(2).clouds(2).depth(1)); 1",
     "material(\"m\").texture(marble_texture().size(8).bands(1, 2)); 1",
     "material(\"m\").surface(brick_texture().size(8).pieces(2, 4).joint(0)); 1",

@@ -350,13 +350,13 @@ impl Workbench {
         match self.renderer.poll() {
             Ok(results) => {
                 if let Some(pipeline) = self.pipelines.shown_pipeline()
-                    && pipeline.grow(&results)
+                    && pipeline.grow(results)
                 {
                     self.canvas.invalidate();
                 }
                 for measured in results {
-                    self.timings.measured(&measured);
-                    if let Some((scale, ms)) = self.canvas.measured(&measured) {
+                    self.timings.measured(measured);
+                    if let Some((scale, ms)) = self.canvas.measured(measured) {
                         self.resolution.measured(scale, ms);
                     }
                 }

@@ -17,7 +17,8 @@ const README: &str = "\
 # My Lightbench project
 
 - `scripts/scenes/` has your scenes, `scripts/pipelines/` your lighting pipelines, `shaders/` your
-  shaders. `out/` is for the pictures and reports that you make.
+  shaders, `scripts/experiments/` scripts that `lightbench run` runs. `out/` is for the pictures and
+  reports that you make.
 - Lightbench brings its own scenes, pipelines and shaders inside the program. A file here with the
   same path is used in place of the one in the program. Edit a shipped file in the editor and it is
   copied here first.
@@ -29,7 +30,13 @@ mine` makes a pipeline and a shader to change, and `lightbench docs pipelines` t
 can say.
 ";
 
-const FOLDERS: [&str; 4] = ["scripts/scenes", "scripts/pipelines", "shaders", "out"];
+const FOLDERS: [&str; 5] = [
+    "scripts/scenes",
+    "scripts/pipelines",
+    "scripts/experiments",
+    "shaders",
+    "out",
+];
 
 /// Makes a new project in a folder that is empty or not there yet. Returns the
 /// folder's full path.

@@ -3,17 +3,15 @@
 use std::collections::HashMap;
 
 use ::gltf::material::AlphaMode;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::{Document, buffers};
 use crate::cache::{Kept, Reuse};
+use crate::color::srgb_to_linear;
 use crate::files::Files;
 use crate::images::{Picture, Pixels, Purpose, decode_picture, shared_texture};
 use crate::obj::ModelError;
 use crate::{Digest, Material, Progress, Shared, Texture, TextureId};
-
-/// Reflectance at normal incidence of what is no metal (glTF 2.0, appendix B.3.1).
-const DIELECTRIC: f32 = 0.04;
 
 /// All materials, in the order of the file, and the textures that they use.
 pub(super) fn load(
@@ -47,15 +45,14 @@ fn material(
 ) -> Material {
     let surface = source.pbr_metallic_roughness();
     let [red, green, blue, _] = surface.base_color_factor();
-    let base = Vec3::new(red, green, blue).clamp(Vec3::ZERO, Vec3::ONE);
+    let base = Vec3::new(red, green, blue);
     let (mut metallic, mut roughness) = (surface.metallic_factor(), surface.roughness_factor());
     if let Some(info) = surface.metallic_roughness_texture() {
         document.warn("textures of metal and roughness count with their mean");
-        if let Some([_, green, blue]) = pictures.mean(document, &info.texture()) {
-            (metallic, roughness) = (metallic * blue, roughness * green);
+        if let Some(mean) = pictures.mean(document, &info.texture(), Purpose::Data) {
+            (metallic, roughness) = (metallic * mean.z, roughness * mean.y);
         }
     }
-    let metallic = metallic.clamp(0.0, 1.0);
     if source.alpha_mode() == AlphaMode::Blend {
         document.warn("transparency without a mask is drawn opaque");
     }
@@ -86,16 +83,17 @@ fn material(
         }
         pictures.texture(document, &info.texture(), Purpose::Data)
     });
-    // Rec. 709 luminance.
-    let luminance = base.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+    let mut mean = Vec3::ONE;
+    if let (Some(info), true) = (surface.base_color_texture(), metallic > 0.0) {
+        document.warn("highlights of metals have the mean colour of their texture");
+        let found = pictures.mean(document, &info.texture(), Purpose::Color);
+        mean = found.unwrap_or(Vec3::ONE);
+    }
     let name = source.name().filter(|name| !name.is_empty());
     let number = source.index().unwrap_or_default();
-    Material {
+    let mut material = Material {
         name: name.map_or_else(|| format!("material {number}"), str::to_owned),
-        base_color: base * (1.0 - metallic),
         base_color_texture,
-        specular: DIELECTRIC + (luminance - DIELECTRIC) * metallic,
-        power: exponent(roughness),
         emissive: if emissive.is_finite() {
             emissive.max(Vec3::ZERO)
         } else {
@@ -110,14 +108,10 @@ fn material(
             1.0
         },
         two_sided: source.double_sided(),
-    }
-}
-
-/// The Blinn-Phong exponent of a roughness: 2/α² − 2 with α = roughness² (Karis 2013).
-pub(super) fn exponent(roughness: f32) -> f32 {
-    let alpha = roughness.clamp(0.0, 1.0).powi(2);
-    let (least, greatest) = Material::POWER_RANGE.into_inner();
-    (2.0 / (alpha * alpha) - 2.0).clamp(least, greatest)
+        ..Material::default()
+    };
+    material.set_metallic_roughness(base, mean, metallic, roughness);
+    material
 }
 
 impl Document {
@@ -139,7 +133,7 @@ struct Pictures<'a> {
 
 /// The mean of a picture.
 #[derive(Clone, Copy)]
-struct Mean([f32; 3]);
+struct Mean(Vec3);
 
 impl Kept for Mean {
     fn bytes(&self) -> usize {
@@ -178,14 +172,19 @@ impl Pictures<'_> {
         id
     }
 
-    /// The mean of red, green and blue, as they are stored.
-    fn mean(&self, document: &mut Document, texture: &::gltf::Texture) -> Option<[f32; 3]> {
+    /// The mean of red, green and blue: of colours in linear light, of numbers as they are stored.
+    fn mean(
+        &self,
+        document: &mut Document,
+        texture: &::gltf::Texture,
+        purpose: Purpose,
+    ) -> Option<Vec3> {
         let image = image_number(document, texture)?;
         let found = self.bytes(document, image).and_then(|(name, bytes)| {
-            let made_of = (&name, Digest::of(&bytes));
+            let made_of = (&name, Digest::of(&bytes), purpose);
             self.reuse.try_get("mean of a picture", &made_of, || {
                 let picture = decode_picture(&name, &bytes).map_err(|error| error.to_string())?;
-                Ok::<_, String>(Mean(mean(&picture)))
+                Ok::<_, String>(Mean(mean(&picture, purpose)))
             })
         });
         match found {
@@ -225,23 +224,28 @@ fn image_number(document: &Document, texture: &::gltf::Texture) -> Option<usize>
     (source < root.images.len()).then_some(source)
 }
 
-fn mean(picture: &Picture) -> [f32; 3] {
-    let mut sums = [0.0_f64; 3];
-    let mut add = |channel: usize, value: f64| {
-        if let Some(sum) = sums.get_mut(channel) {
-            *sum += value;
-        }
-    };
+fn mean(picture: &Picture, purpose: Purpose) -> Vec3 {
+    let mut sum = DVec3::ZERO;
     match &picture.pixels {
-        Pixels::Rgba8(bytes) => bytes
-            .iter()
-            .enumerate()
-            .for_each(|(at, &byte)| add(at % 4, f64::from(byte) / 255.0)),
-        Pixels::RgbaF32(values) => values
-            .iter()
-            .enumerate()
-            .for_each(|(at, &value)| add(at % 4, f64::from(value))),
+        Pixels::Rgba8(bytes) => {
+            // What each of the 256 codes stands for.
+            let value = |code: u8| match purpose {
+                Purpose::Color => f64::from(srgb_to_linear(f32::from(code) / 255.0)),
+                Purpose::Data => f64::from(code) / 255.0,
+            };
+            let values: Vec<f64> = (0..=255).map(value).collect();
+            for pixel in bytes.as_chunks::<4>().0 {
+                sum +=
+                    DVec3::from_array([0, 1, 2].map(|channel| values[usize::from(pixel[channel])]));
+            }
+        }
+        // Pictures of floats hold linear light.
+        Pixels::RgbaF32(values) => {
+            for pixel in values.as_chunks::<4>().0 {
+                sum += DVec3::from_array([0, 1, 2].map(|channel| f64::from(pixel[channel])));
+            }
+        }
     }
     let count = f64::from(picture.width.max(1)) * f64::from(picture.height.max(1));
-    sums.map(|sum| (sum / count) as f32)
+    (sum / count).as_vec3()
 }

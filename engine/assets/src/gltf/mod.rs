@@ -6,7 +6,8 @@
 //! | in the file | becomes |
 //! | --- | --- |
 //! | `baseColorFactor`, `baseColorTexture` | base colour, its factor times 1 − metallic: a metal scatters nothing |
-//! | `metallicFactor`, `roughnessFactor` | specular: 0.04 for what is no metal, the luminance of the base colour for metal, in between evenly; exponent 2/α² − 2 with α = roughness² (Karis 2013, "Specular BRDF reference"), within 1..1448 |
+//! | `metallicFactor`, `roughnessFactor` | the GGX model: specular 0.04 for what is no metal, the base colour for metal, in between evenly; α = roughness² (appendix B.2), not below 0.0263 |
+//! | `baseColorTexture` of a metal | times the factor, its mean is the specular colour |
 //! | `metallicRoughnessTexture` | its mean, times the factors |
 //! | `normalTexture` | normal texture |
 //! | `emissiveFactor`, `KHR_materials_emissive_strength` | emissive, in W/(m² sr) |

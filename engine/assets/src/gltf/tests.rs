@@ -8,7 +8,7 @@ use lightbench_world::curve::Interpolation;
 use lightbench_world::{LightKind, MaterialId};
 
 use super::*;
-use crate::{MeshError, TextureId};
+use crate::{MeshError, Reflection, TextureId};
 
 /// Bytes of numbers, one behind the other.
 #[derive(Clone, Default)]
@@ -240,7 +240,7 @@ fn materials_are_mapped_as_the_table_says() {
                 "metallicFactor": 0, "roughnessFactor": 0.5, "baseColorTexture": {{"index": 0}} }},
               "normalTexture": {{"index": 0}}, "doubleSided": true,
               "alphaMode": "MASK", "alphaCutoff": 0.25}},
-            {{"pbrMetallicRoughness": {{"baseColorFactor": [0.5, 0.5, 0.5, 1],
+            {{"pbrMetallicRoughness": {{"baseColorFactor": [0.5, 0.4, 0.3, 1],
                 "metallicRoughnessTexture": {{"index": 1}} }},
               "emissiveFactor": [1, 0.5, 0],
               "extensions": {{"KHR_materials_emissive_strength": {{"emissiveStrength": 4}} }} }},
@@ -260,20 +260,23 @@ fn materials_are_mapped_as_the_table_says() {
     };
     assert_eq!((paint.name.as_str(), paint.two_sided), ("paint", true));
     assert_eq!(paint.base_color, Vec3::new(0.8, 0.4, 0.2));
-    assert_eq!((paint.specular, paint.alpha_cutoff), (0.04, Some(0.25)));
-    // α = 0.25, and 2 / 0.0625 − 2 = 30.
-    assert!((paint.power - 30.0).abs() < 1e-4);
+    assert_eq!(paint.specular, Vec3::splat(0.04));
+    assert_eq!(paint.alpha_cutoff, Some(0.25));
+    assert_eq!(paint.reflection, Reflection::Ggx { roughness: 0.25 });
     // Once as colours, once as numbers.
     assert_eq!(paint.base_color_texture, Some(TextureId(1)));
     assert_eq!(paint.normal_texture, Some(TextureId(2)));
     assert_eq!(scene.model.textures.len(), 2);
     // The mean of blue is full metal: it scatters nothing and mirrors its base colour.
     assert_eq!(metal.base_color, Vec3::ZERO);
-    assert!((metal.specular - 0.5).abs() < 1e-5);
-    let expected = materials::exponent(128.0 / 255.0);
-    assert!((metal.power - expected).abs() < 1e-3);
+    assert!(metal.specular.abs_diff_eq(Vec3::new(0.5, 0.4, 0.3), 1e-6));
+    let Reflection::Ggx { roughness } = metal.reflection else {
+        panic!("{:?}", metal.reflection);
+    };
+    assert!((roughness - (128.0_f32 / 255.0).powi(2)).abs() < 1e-6);
     assert_eq!(metal.emissive, Vec3::new(4.0, 2.0, 0.0));
-    assert_eq!(glass.power, *crate::Material::POWER_RANGE.end());
+    let least = *Reflection::ROUGHNESS_RANGE.start();
+    assert_eq!(glass.reflection, Reflection::Ggx { roughness: least });
     let warnings: Vec<_> = scene.model.warnings.iter().map(|w| w.to_string()).collect();
     assert!(
         warnings.iter().any(|w| w.contains("drawn opaque")),
@@ -284,6 +287,36 @@ fn materials_are_mapped_as_the_table_says() {
         "{warnings:?}"
     );
     assert_eq!(scene.model.meshes[0].1, MaterialId(1));
+}
+
+/// Of 188 and 188 the mean is 0.503 in linear light; of the values as stored it would be 0.737.
+#[test]
+fn metals_mirror_the_mean_colour_of_their_texture() {
+    let checks: Vec<u8> = [[188, 0, 0, 255], [188, 255, 255, 255]].concat();
+    let picture = crate::images::encode_png("x.png", 2, 1, &checks).unwrap();
+    let data = format!("data:image/png;base64,{}", STANDARD.encode(&picture));
+    let more = format!(
+        r#", "materials": [
+            {{"pbrMetallicRoughness": {{"baseColorFactor": [1, 0.5, 1, 1],
+                "baseColorTexture": {{"index": 0}} }} }},
+            {{"pbrMetallicRoughness": {{"metallicFactor": 0, "baseColorTexture": {{"index": 0}} }} }}],
+          "textures": [{{"source": 0}}], "images": [{{"uri": "{data}"}}]"#
+    );
+    let model = good(&embedded(&more)).model;
+    let [metal, paint] = model.materials.as_slice() else {
+        panic!("{:?}", model.materials);
+    };
+    assert!(
+        metal
+            .specular
+            .abs_diff_eq(Vec3::new(0.502_886, 0.25, 0.5), 1e-5),
+        "{}",
+        metal.specular
+    );
+    assert_eq!(paint.specular, Vec3::splat(0.04));
+    let warnings: Vec<_> = model.warnings.iter().map(|w| w.to_string()).collect();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(warnings[0].contains("mean colour"), "{warnings:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::Warnings;
 use super::clean::Clean;
 use super::mtl::{Entry, find, parse_map};
 use crate::files::Files;
-use crate::{Material, TextureId};
+use crate::{Material, Reflection, TextureId};
 
 /// Luminance of linear Rec. 709.
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
@@ -14,6 +14,10 @@ const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 /// The reflectance of glass with a refractive index of 1.8: hardly any material
 /// that is no metal and no gem reflects more at normal incidence.
 const MAX_DIELECTRIC: f32 = 0.08;
+
+/// The roughness of a material that has `Pm` but no `Pr`: half way, as in the
+/// programs that write such files.
+const DEFAULT_ROUGHNESS: f32 = 0.5;
 
 /// A picture to load, and what becomes of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,23 +94,27 @@ impl Materials {
         let color =
             |value: Option<[f32; 3]>, default: Vec3| value.map_or(default, Vec3::from_array);
         let base_color = color(source.diffuse, default.base_color).clamp(Vec3::ZERO, Vec3::ONE);
-        let specular = match source.specular {
-            Some(specular) => {
-                let is_metal = base_color.max_element() <= 0.01;
-                let most = if is_metal { 1.0 } else { MAX_DIELECTRIC };
-                Vec3::from_array(specular).dot(LUMINANCE).clamp(0.0, most)
+        let specular = match source.specular.map(Vec3::from_array) {
+            // A metal scatters nothing, and may mirror in a colour.
+            Some(specular) if base_color.max_element() <= 0.01 => {
+                specular.clamp(Vec3::ZERO, Vec3::ONE)
             }
+            Some(specular) => Vec3::splat(specular.dot(LUMINANCE).clamp(0.0, MAX_DIELECTRIC)),
             None => default.specular,
         };
-        let (low, high) = Material::POWER_RANGE.into_inner();
+        let (low, high) = Reflection::POWER_RANGE.into_inner();
         let mut material = Material {
             name: source.name.clone(),
             base_color,
             specular,
-            power: source.shininess.unwrap_or(default.power).clamp(low, high),
             emissive: color(source.emissive, Vec3::ZERO).max(Vec3::ZERO),
             ..default
         };
+        if let Some(power) = source.shininess {
+            material.reflection = Reflection::BlinnPhong {
+                power: power.clamp(low, high),
+            };
+        }
 
         let mut look_up = |map_text: &str| {
             let map = parse_map(map_text);
@@ -143,6 +151,20 @@ impl Materials {
             .or(source.normal_texture.as_ref());
         if let Some((Some(path), bump)) = normal.map(|map| look_up(map)) {
             material.normal_texture = Some(self.request(path, Kind::Normal { bump }));
+        }
+        let of_pbr = |key: &str| source.unknown_param.get(key)?.trim().parse::<f32>().ok();
+        let (roughness, metallic) = (of_pbr("pr"), of_pbr("pm"));
+        if roughness.is_some() || metallic.is_some() {
+            let metallic = metallic.unwrap_or(0.0);
+            if metallic > 0.0 && material.base_color_texture.is_some() {
+                let name = &source.name;
+                let message = format!(
+                    "highlights of the metal `{name}` have the colour of its `Kd`, without its texture"
+                );
+                warnings.add_in(&files.display(&entry.library), None, &message);
+            }
+            let roughness = roughness.unwrap_or(DEFAULT_ROUGHNESS);
+            material.set_metallic_roughness(base_color, Vec3::ONE, metallic, roughness);
         }
         if material.alpha_cutoff.is_none() {
             material.opacity = source.dissolve.unwrap_or(1.0).clamp(0.0, 1.0);

@@ -6,8 +6,9 @@
 //! | in the file | becomes |
 //! | --- | --- |
 //! | `Kd` | base colour, taken as linear |
-//! | `Ks` | specular: its luminance, but at most 0.08 beside a diffuse colour, for only metals (`Kd` black) reflect more; many files were written for models without units, and say 0.5 or 1 |
+//! | `Ks` | specular: its colour where `Kd` is black, as that of metals; else its luminance, but at most 0.08, for only metals reflect more; many files were written for models without units, and say 0.5 or 1 |
 //! | `Ns` | Blinn-Phong exponent, clamped to 1..1448 |
+//! | `Pr`, `Pm` | roughness and share of metal, as glTF has them: the GGX model; then `Ks` and `Ns` do not count |
 //! | `Ke` | emissive |
 //! | `map_Kd` | base colour texture, sRGB |
 //! | `norm`, `map_Bump`, `bump` | normal texture; a grey picture is a height map, made into normals with the strength `-bm` |

@@ -171,19 +171,24 @@ fn clean(path: &str, text: &str, warnings: &mut Warnings) -> (String, HashMap<St
                     shortened(values)
                 )),
             },
-            "ns" | "d" | "tr" => match values.split_whitespace().last().and_then(number) {
-                Some(value) if lower == "ns" => {
-                    let _ = writeln!(clean, "Ns {value}");
+            "ns" | "d" | "tr" | "pr" | "pm" => {
+                match values.split_whitespace().last().and_then(number) {
+                    Some(value) if lower == "ns" => {
+                        let _ = writeln!(clean, "Ns {value}");
+                    }
+                    Some(value) if lower.starts_with('p') => {
+                        let _ = writeln!(clean, "{lower} {value}");
+                    }
+                    Some(value) => {
+                        let _ = writeln!(
+                            clean,
+                            "d {}",
+                            if lower == "tr" { 1.0 - value } else { value }
+                        );
+                    }
+                    None => warn(&format!("`{} {}` is no number", word, shortened(values))),
                 }
-                Some(value) => {
-                    let _ = writeln!(
-                        clean,
-                        "d {}",
-                        if lower == "tr" { 1.0 - value } else { value }
-                    );
-                }
-                None => warn(&format!("`{} {}` is no number", word, shortened(values))),
-            },
+            }
             "map_kd" | "map_d" | "map_bump" | "bump" | "norm" => {
                 let key = match lower.as_str() {
                     "map_kd" => "map_Kd",

@@ -116,6 +116,12 @@ impl Series {
         for time in stepped.iter().chain(&statistics.systems) {
             self.add_system(time);
         }
+        if statistics.replaced_models.total() > 0 {
+            let note = statistics.replaced_models.to_string();
+            if !self.result.notes.contains(&note) {
+                self.result.notes.push(note);
+            }
+        }
         self.note_unconfined(statistics.unconfined_lights);
         let cpu = statistics.extract_ms + statistics.record_ms;
         self.result.frame_cpu_ms.push(cpu);

@@ -1,9 +1,10 @@
 //! The twin of `shaders/lib/lighting.wgsl`: one light on one surface.
 
 use glam::{DVec3, Vec3};
+use lightbench_assets::Reflection;
 use lightbench_render::gpu_data::LightData;
 
-use super::brdf::normalized_blinn_phong;
+use super::brdf::{self, LEAST_COSINE, LEAST_ROUGHNESS};
 
 /// What light falls on; see `Surface` in `shaders/lib/surface.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,10 +15,12 @@ pub struct Surface {
     pub normal: DVec3,
     /// Diffuse reflectance, linear Rec. 709.
     pub base_color: DVec3,
-    /// Specular reflectance.
-    pub specular: f64,
-    /// Blinn-Phong exponent.
-    pub power: f64,
+    /// Specular reflectance at normal incidence.
+    pub specular: DVec3,
+    /// Reflection model.
+    pub reflection: Reflection,
+    /// Unit vector in the surface, from which Ward's model measures.
+    pub tangent: DVec3,
     /// Emitted radiance.
     pub emissive: DVec3,
 }
@@ -32,6 +35,90 @@ pub fn distance_falloff(distance_squared: f64, range: f64) -> f64 {
     let ratio = distance_squared / (range * range);
     let window = (1.0 - ratio * ratio).clamp(0.0, 1.0);
     window * window / distance_squared.max(0.01 * 0.01)
+}
+
+/// What a surface mirrors to the viewer for each unit of irradiance, before its specular colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mirrored {
+    /// To be multiplied by the specular colour.
+    pub colored: f64,
+    /// Whatever that is: Fresnel's rise at grazing angles.
+    pub white: f64,
+}
+
+impl Mirrored {
+    fn plain(colored: f64) -> Self {
+        Self {
+            colored,
+            white: 0.0,
+        }
+    }
+
+    fn with_fresnel(facets: f64, v_dot_h: f64) -> Self {
+        let weight = brdf::schlick_weight(v_dot_h);
+        Self {
+            colored: facets * (1.0 - weight),
+            white: facets * weight,
+        }
+    }
+}
+
+/// The surface's reflection model.
+pub fn mirror(surface: &Surface, to_light: DVec3, to_viewer: DVec3) -> Mirrored {
+    let normal = surface.normal;
+    let half_vector = (to_light + to_viewer).try_normalize().unwrap_or(DVec3::Y);
+    let cosine = |a: DVec3, b: DVec3| a.dot(b).max(LEAST_COSINE);
+    let (n_dot_l, n_dot_v) = (cosine(normal, to_light), cosine(normal, to_viewer));
+    let (n_dot_h, v_dot_h) = (cosine(normal, half_vector), cosine(to_viewer, half_vector));
+    let width = |roughness: f32| f64::from(roughness).max(LEAST_ROUGHNESS);
+    match surface.reflection {
+        Reflection::BlinnPhong { power } => {
+            let n_dot_h = normal.dot(half_vector);
+            Mirrored::plain(brdf::normalized_blinn_phong(n_dot_h, power.into()))
+        }
+        Reflection::Phong { power } => {
+            let mirrored = 2.0 * normal.dot(to_light) * normal - to_light;
+            let r_dot_v = mirrored.dot(to_viewer);
+            Mirrored::plain(brdf::normalized_phong(r_dot_v, power.into()))
+        }
+        Reflection::Beckmann { roughness } => {
+            let distribution = brdf::beckmann_distribution(n_dot_h, width(roughness));
+            let visible = brdf::groove_visibility(n_dot_l, n_dot_v, n_dot_h, v_dot_h);
+            Mirrored::with_fresnel(distribution * visible, v_dot_h)
+        }
+        Reflection::Ggx { roughness } => {
+            let distribution = brdf::ggx_distribution(n_dot_h, width(roughness));
+            let visible = brdf::ggx_visibility(n_dot_l, n_dot_v, width(roughness));
+            Mirrored::with_fresnel(distribution * visible, v_dot_h)
+        }
+        Reflection::Ward { along, across } => {
+            let h_dot_t = half_vector.dot(surface.tangent);
+            let h_dot_b = half_vector.dot(normal.cross(surface.tangent));
+            let alpha = [width(along), width(across)];
+            Mirrored::plain(brdf::ward(n_dot_h, v_dot_h, h_dot_t, h_dot_b, alpha))
+        }
+    }
+}
+
+/// The specular part of a BRDF, 1/sr, as a function of the unit vectors to the light and to the
+/// viewer in the surface's own frame: the normal along +z, the tangent along +x.
+pub fn specular_lobe(
+    reflection: Reflection,
+    reflectance: f64,
+) -> impl Fn(DVec3, DVec3) -> f64 + Copy {
+    let surface = Surface {
+        position: DVec3::ZERO,
+        normal: DVec3::Z,
+        base_color: DVec3::ZERO,
+        specular: DVec3::splat(reflectance),
+        reflection,
+        tangent: DVec3::X,
+        emissive: DVec3::ZERO,
+    };
+    move |to_light, to_viewer| {
+        let mirrored = mirror(&surface, to_light, to_viewer);
+        reflectance * mirrored.colored + mirrored.white
+    }
 }
 
 /// Radiance that one light makes the surface send to the viewer.
@@ -62,9 +149,8 @@ pub fn evaluate_light(light: &LightData, surface: &Surface, to_viewer: DVec3) ->
     if n_dot_l <= 0.0 {
         return DVec3::ZERO;
     }
-    let half_vector = (to_light + to_viewer).try_normalize().unwrap_or(DVec3::Y);
-    let specular =
-        surface.specular * normalized_blinn_phong(surface.normal.dot(half_vector), surface.power);
+    let mirrored = mirror(surface, to_light, to_viewer);
+    let specular = surface.specular * mirrored.colored + mirrored.white;
     (surface.base_color / std::f64::consts::PI + specular) * irradiance * n_dot_l
 }
 
@@ -89,8 +175,9 @@ mod tests {
             position: DVec3::ZERO,
             normal: DVec3::Y,
             base_color: DVec3::splat(0.5),
-            specular: 0.0,
-            power: 1.0,
+            specular: DVec3::ZERO,
+            reflection: Reflection::BlinnPhong { power: 1.0 },
+            tangent: DVec3::X,
             emissive: DVec3::ZERO,
         }
     }

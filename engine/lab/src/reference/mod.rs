@@ -5,6 +5,7 @@
 
 pub mod brdf;
 pub mod color;
+pub mod g_buffer;
 pub mod index_packing;
 pub mod lighting;
 pub mod normals;

@@ -151,7 +151,8 @@ pub struct PipelineResult {
     /// What it says that it can do and what not.
     #[serde(default)]
     pub abilities: Vec<AbilityResult>,
-    /// Where the adapter's limits changed it, in a sentence each.
+    /// Where the adapter's limits changed it, and how many materials it drew with another reflection
+    /// model, in a sentence each.
     #[serde(default)]
     pub notes: Vec<String>,
     /// Its picture against that of the reference, in 8-bit sRGB; absent for the reference.

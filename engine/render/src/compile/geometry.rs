@@ -31,6 +31,7 @@ impl Compiler {
         geometry: &Geometry,
         layout: &PassLayout,
     ) -> Result<GeometryPipelines, Problem> {
+        let other_models = self.has_other_models(desc, pass);
         let mut variants = Vec::with_capacity(Variant::COUNT);
         for variant in Variant::all() {
             if !self.variants.contains(variant) {
@@ -45,7 +46,12 @@ impl Compiler {
                 .filter(|_| outputs || variant.alpha_test() || geometry.pull_vertices);
             let depth_only = fragment.is_none();
             let state = State {
-                fragment_defines: variant.defines(),
+                // Shaders that do not tell models apart have one pipeline for all.
+                fragment_defines: if other_models {
+                    variant.defines()
+                } else {
+                    variant.with_default_model().defines()
+                },
                 vertex_defines: if depth_only { &["POSITION_ONLY"] } else { &[] },
                 cull: match geometry.faces {
                     Faces::Material if variant.two_sided() => None,

@@ -31,7 +31,7 @@ use crate::problem::{Place, Problem, Problems, nearest};
 use crate::reflection::{ParameterMember, Reflection, reflect};
 use crate::shader::{MODULES, Shader, ShaderComposer};
 use crate::validate::validate;
-use crate::variant::Variants;
+use crate::variant::{REFLECTION_MODELS, Variants};
 use cache::PipelineCache;
 
 /// The vertex stages that passes use whose shader brings none.
@@ -286,12 +286,36 @@ impl Compiler {
                 immediate_size: 0,
             });
         let layout = PassLayout { layout, key };
-        let pipelines = match &pass.kind {
-            PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, &layout),
-            PassKind::Lights(lights) => self.lights(files, desc, pass, lights, &layout),
-            PassKind::Shadow(shadow) => self.shadow(files, desc, pass, shadow, &layout),
-            PassKind::Fullscreen => self.fullscreen(files, desc, pass, &layout),
-            PassKind::Compute(_) => self.compute(files, pass, &layout),
+        let pipelines = self.pipelines(files, desc, pass, &layout).map_err(one)?;
+        let mut compiled = CompiledPass::new(pipelines, sources, target_layout, parameters);
+        let lights = matches!(
+            pass.kind,
+            PassKind::Lights(_) | PassKind::Fullscreen | PassKind::Compute(_)
+        );
+        if lights && self.variants.has_other_models() && self.has_other_models(desc, pass) {
+            let mut pass = pass.clone();
+            if let Some(shader) = &mut pass.shader {
+                shader.defines.push(Define::flag(REFLECTION_MODELS));
+            }
+            let pipelines = self.pipelines(files, desc, &pass, &layout).map_err(one)?;
+            compiled.for_other_models = Some(pipelines);
+        }
+        Ok(compiled)
+    }
+
+    fn pipelines(
+        &mut self,
+        files: &Files,
+        desc: &PipelineDesc,
+        pass: &PassDesc,
+        layout: &PassLayout,
+    ) -> Result<PassPipelines, Problem> {
+        match &pass.kind {
+            PassKind::Geometry(geometry) => self.geometry(files, desc, pass, geometry, layout),
+            PassKind::Lights(lights) => self.lights(files, desc, pass, lights, layout),
+            PassKind::Shadow(shadow) => self.shadow(files, desc, pass, shadow, layout),
+            PassKind::Fullscreen => self.fullscreen(files, desc, pass, layout),
+            PassKind::Compute(_) => self.compute(files, pass, layout),
             PassKind::Mips { target, reduction } => {
                 self.mips(files, desc, pass, &target.target, *reduction)
             }
@@ -300,13 +324,19 @@ impl Compiler {
             | PassKind::Resolve { .. }
             | PassKind::History { .. } => Ok(PassPipelines::None),
         }
-        .map_err(one)?;
-        Ok(CompiledPass::new(
-            pipelines,
-            sources,
-            target_layout,
-            parameters,
-        ))
+    }
+
+    /// Whether the pass draws reflection models beside the default one, so that it needs GPU pipelines
+    /// for them: the pipeline carries some, and the shader tells them apart.
+    fn has_other_models(&self, desc: &PipelineDesc, pass: &PassDesc) -> bool {
+        if !desc.reflection_models().has_others() {
+            return false;
+        }
+        let loaded = pass.shader.as_ref().and_then(|shader| {
+            let key = (shader.path.clone(), Vec::new(), shader.defines.clone());
+            self.shaders.get(&key)
+        });
+        loaded.is_some_and(|loaded| loaded.shader.mentions(REFLECTION_MODELS))
     }
 
     /// Finds what the variables of a pass's shader stand for. All variants of it that the pass may
@@ -318,12 +348,17 @@ impl Compiler {
         pass: &PassDesc,
         shader: &ShaderDesc,
     ) -> Result<Bound, Vec<Problem>> {
-        let variants: &[&[&'static str]] = match pass.kind {
-            PassKind::Geometry(_) | PassKind::Shadow(_) => &[&[], &["ALPHA_TEST"]],
-            _ => &[&[]],
+        let mut variants: Vec<&[&'static str]> = match pass.kind {
+            PassKind::Geometry(_) | PassKind::Shadow(_) => vec![&[], &["ALPHA_TEST"]],
+            _ => vec![&[]],
         };
+        self.load(files, &shader.path, &[], &shader.defines)
+            .map_err(|problem| vec![problem])?;
+        if self.variants.has_other_models() && self.has_other_models(desc, pass) {
+            variants.push(&[REFLECTION_MODELS]);
+        }
         let mut all: Option<Reflection> = None;
-        for variant in variants {
+        for variant in &variants {
             let loaded = self
                 .load(files, &shader.path, variant, &shader.defines)
                 .map_err(|problem| vec![problem])?;
@@ -337,7 +372,7 @@ impl Compiler {
         let mut all = all.unwrap_or_default();
         let mut sources = Vec::new();
         let gpu = self.gpu.clone();
-        for variant in variants {
+        for variant in &variants {
             let loaded = self
                 .load(files, &shader.path, variant, &shader.defines)
                 .map_err(|problem| vec![problem])?;

@@ -23,6 +23,8 @@ pub use pass::{
 pub use resource::{BufferDesc, BufferSize, Mips, Shape, Slice, TargetDesc, TargetSize};
 pub use shadow::{GivenView, Lens, Shadow, ShadowLights, ShadowViews};
 
+use lightbench_assets::{ReflectionModel, ReflectionModels};
+
 use crate::problem::Place;
 
 /// A name that somebody wrote, with where it was written.
@@ -62,6 +64,13 @@ pub struct Ability {
     pub supported: bool,
     /// By which means; or why not.
     pub text: String,
+}
+
+impl Ability {
+    /// The name of the reflection model that it is about: `ggx` in `brdf_ggx`.
+    pub fn reflection_model(&self) -> Option<&str> {
+        self.name.strip_prefix("brdf_")
+    }
 }
 
 /// A whole pipeline.
@@ -116,6 +125,16 @@ impl PipelineDesc {
     /// What the pipeline says of an ability.
     pub fn ability(&self, name: &str) -> Option<&Ability> {
         self.abilities.iter().find(|ability| ability.name == name)
+    }
+
+    /// The reflection models that the pipeline says it carries, by abilities such as `brdf_ggx`.
+    /// Those that it says nothing of it does not carry, since its buffers may have no room for them.
+    pub fn reflection_models(&self) -> ReflectionModels {
+        let supported = self.abilities.iter().filter(|ability| ability.supported);
+        let names = supported.filter_map(Ability::reflection_model);
+        names
+            .filter_map(ReflectionModel::from_name)
+            .fold(ReflectionModels::default(), ReflectionModels::with)
     }
 
     /// Whether two descriptions differ in nothing but the values of their parameters, so that

@@ -11,7 +11,7 @@ mod objects;
 mod shadows;
 
 use glam::{Mat4, Vec3};
-use lightbench_assets::Assets;
+use lightbench_assets::{Assets, ReflectionModels};
 use lightbench_world::culling::{Frustum, Spheres, cull_spheres};
 use lightbench_world::{ClipVolume, Light, MeshId, World, WorldBounds};
 
@@ -210,6 +210,8 @@ pub struct FrameRequest<'a> {
     pub time: f32,
     /// Frames since the renderer began.
     pub index: u32,
+    /// The reflection models that the pipeline carries.
+    pub models: ReflectionModels,
     /// World to clip in the frame before; the present one where there was none.
     pub previous: Option<Mat4>,
     /// The lists of objects that passes draw.
@@ -248,6 +250,7 @@ impl Frame {
             assets,
             instances,
             lights,
+            models: request.models,
             view: &volume,
         };
         for (index, key) in request.lists.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Lists of objects: which, in which order, in which draw calls.
 
 use glam::Vec3;
-use lightbench_assets::Assets;
+use lightbench_assets::{Assets, Material, ReflectionModel, ReflectionModels};
 use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
 
 use super::{Frame, ListKey, MeshDraw, Step, ViewVolume};
@@ -15,6 +15,7 @@ pub(super) struct Objects<'a> {
     pub assets: &'a Assets,
     pub instances: &'a [InstanceData],
     pub lights: &'a [LightData],
+    pub models: ReflectionModels,
     pub view: &'a ViewVolume,
 }
 
@@ -90,7 +91,7 @@ impl Frame {
         if !r.visible[index] {
             return;
         }
-        let traits = Traits::of(objects.assets, r.material[index]);
+        let traits = Traits::of(objects.assets.material(r.material[index]), objects.models);
         let wanted = match list {
             DrawList::Opaque | DrawList::Casters => !traits.transparent,
             DrawList::Transparent => traits.transparent,
@@ -100,7 +101,12 @@ impl Frame {
             let mirrored = is_mirrored(&objects.instances[index]);
             self.order.push(Entry {
                 distance: distance(order, objects, index),
-                variant: Variant::new(traits.two_sided, traits.alpha_test, mirrored),
+                variant: Variant::new(
+                    traits.two_sided,
+                    traits.alpha_test,
+                    mirrored,
+                    traits.other_model,
+                ),
                 mesh: r.mesh[index],
                 row,
                 layer: 0,
@@ -171,22 +177,24 @@ struct Traits {
     two_sided: bool,
     alpha_test: bool,
     transparent: bool,
+    other_model: bool,
 }
 
 impl Traits {
-    fn of(assets: &Assets, id: MaterialId) -> Self {
-        let material = assets.material(id);
+    fn of(material: Option<&Material>, models: ReflectionModels) -> Self {
+        let drawn = |m: &Material| m.reflection.nearest(models).model();
         Self {
             two_sided: material.is_some_and(|m| m.two_sided),
             alpha_test: material.is_some_and(|m| m.alpha_cutoff.is_some()),
             transparent: material.is_some_and(|m| m.is_transparent()),
+            other_model: material.is_some_and(|m| drawn(m) != ReflectionModel::BlinnPhong),
         }
     }
 }
 
 /// Whether light passes through what has the material.
 pub(super) fn is_transparent(assets: &Assets, id: MaterialId) -> bool {
-    Traits::of(assets, id).transparent
+    assets.material(id).is_some_and(Material::is_transparent)
 }
 
 /// Whether the world matrix turns the winding of triangles round.

@@ -4,6 +4,7 @@
 //! All of it happens on the GPU between the passes of one frame, and what is to be read comes back
 //! some frames later, so that nothing waits. The shaders are in `shaders/inspect/`.
 
+mod look;
 mod probe;
 mod read;
 mod show;
@@ -18,6 +19,7 @@ use crate::gpu::Gpu;
 use crate::problem::Problem;
 use crate::targets::Targets;
 
+pub use look::{FirstInvalid, Part, Shown, Unknown, find_pass, last_writer};
 pub use probe::{Invalid, PixelValue, ProbeRequest, Probed, TexelValue};
 pub use read::read_any;
 pub use show::{Channels, ColorMap, Inspection};

@@ -116,7 +116,7 @@ pub fn record(
             index,
             clipped: false,
         };
-        match (&desc.kind, &pass.pipelines) {
+        match (&desc.kind, pass.pipelines(recording.frame)) {
             (PassKind::Compute(dispatch), PassPipelines::Compute(pipeline)) => {
                 work.compute(dispatch, pipeline, encoder, &mut cost);
             }

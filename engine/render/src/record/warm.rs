@@ -84,7 +84,7 @@ fn find<'a>(pipeline: &'a Pipeline, frame: &Frame, meshes: &MeshPool) -> Option<
 
 fn cold<'a>(pass: &'a CompiledPass, frame: &Frame, meshes: &MeshPool) -> Option<Cold<'a>> {
     let screen = Triangle::Screen { instance: 0 };
-    match &pass.pipelines {
+    match pass.pipelines(frame) {
         PassPipelines::None => None,
         PassPipelines::Geometry(pipelines) => geometry(pass, pipelines, frame, meshes),
         PassPipelines::Lights(pipelines) => lights(pass, pipelines, frame, meshes),

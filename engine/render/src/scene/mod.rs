@@ -2,16 +2,18 @@
 
 mod buckets;
 mod buffer;
+mod materials;
 mod mesh_buffers;
 mod meshes;
 mod resample;
 mod rows;
 mod textures;
 
-use lightbench_assets::Assets;
+use lightbench_assets::{Assets, ReflectionModels};
 use lightbench_world::World;
 
 pub use buffer::RowBuffer;
+pub use materials::ReplacedModels;
 pub use mesh_buffers::MeshBuffers;
 pub use meshes::{MeshPool, MeshRange, Shape};
 pub use rows::light_data;
@@ -20,10 +22,10 @@ use crate::engine_buffers::EngineBuffers;
 use crate::frame::Frame;
 use crate::gpu::Gpu;
 use crate::gpu_data::{
-    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, MaterialData, NO_TEXTURE,
-    ShadowViewData,
+    DrawnObject, FrameData, InstanceData, LightData, LightVolumeData, ShadowViewData,
 };
 use crate::layout::{FIRST_TEXTURE_BINDING, SAMPLER_BINDING, SceneLayout};
+use materials::MaterialRows;
 use rows::SceneRows;
 use textures::TexturePool;
 
@@ -47,7 +49,7 @@ pub struct Scene {
     textures: TexturePool,
     rows: SceneRows,
     frame: wgpu::Buffer,
-    materials: RowBuffer<MaterialData>,
+    materials: MaterialRows,
     instances: RowBuffer<InstanceData>,
     lights: RowBuffer<LightData>,
     drawn: RowBuffer<DrawnObject>,
@@ -87,7 +89,7 @@ impl Scene {
             textures: TexturePool::new(gpu),
             rows: SceneRows::default(),
             frame: frame_buffer(gpu, size_of::<FrameData>() as u64),
-            materials: RowBuffer::new(gpu, "materials"),
+            materials: MaterialRows::new(RowBuffer::new(gpu, "materials")),
             instances: RowBuffer::new(gpu, "instances"),
             lights: RowBuffer::new(gpu, "lights"),
             drawn: RowBuffer::new(gpu, "drawn objects"),
@@ -105,44 +107,35 @@ impl Scene {
         }
     }
 
-    /// Uploads meshes, textures and materials that are not on the device yet. Warnings (a texture
-    /// that had to be resampled) are kept for [`Scene::take_warnings`].
+    /// Uploads meshes, textures and materials that are not on the device yet; materials with the
+    /// reflection models that the pipeline carries, or the nearest to them. Warnings (a texture that had to be resampled) are
+    /// kept for [`Scene::take_warnings`].
     ///
     /// # Errors
     /// A sentence that says which asset the device can't hold.
-    pub fn sync_assets(&mut self, assets: &Assets) -> Result<(), String> {
-        if self.assets_revision == Some(assets.revision()) {
-            return Ok(());
-        }
-        self.meshes.sync(assets, &mut self.uploads)?;
-        let (uploads, warnings) = (&mut self.uploads, &mut self.warnings);
-        if self.textures.sync(assets, uploads, warnings) {
-            self.group = None;
+    pub fn sync_assets(
+        &mut self,
+        assets: &Assets,
+        carried: ReflectionModels,
+    ) -> Result<(), String> {
+        if self.assets_revision != Some(assets.revision()) {
+            self.meshes.sync(assets, &mut self.uploads)?;
+            let (uploads, warnings) = (&mut self.uploads, &mut self.warnings);
+            if self.textures.sync(assets, uploads, warnings) {
+                self.group = None;
+            }
+            self.materials.forget();
+            self.assets_revision = Some(assets.revision());
         }
         let textures = &self.textures;
-        let slot = |texture: Option<lightbench_assets::TextureId>| {
-            texture.map_or(NO_TEXTURE, |id| textures.slot(id))
-        };
-        let materials: Vec<MaterialData> = assets
-            .materials()
-            .iter()
-            .map(|entry| {
-                let material = &entry.value;
-                MaterialData {
-                    base_color: material.base_color,
-                    specular: material.specular,
-                    emissive: material.emissive,
-                    power: material.power,
-                    base_color_texture: slot(material.base_color_texture),
-                    normal_texture: slot(material.normal_texture),
-                    alpha_cutoff: material.alpha_cutoff.unwrap_or(0.0),
-                    opacity: material.opacity,
-                }
-            })
-            .collect();
-        self.materials.replace_if_changed(&materials);
-        self.assets_revision = Some(assets.revision());
+        self.materials
+            .sync(assets, carried, |texture| textures.slot(texture));
         Ok(())
+    }
+
+    /// How many materials are drawn with another reflection model than they ask for.
+    pub fn replaced_models(&self) -> ReplacedModels {
+        self.materials.replaced
     }
 
     /// Makes ready for a scene that takes another's place. What was uploaded stays as long as the
@@ -177,7 +170,7 @@ impl Scene {
         self.volumes.replace_if_changed(&frame.volumes);
         let mut grown = false;
         for flush in [
-            self.materials.flush(&self.gpu),
+            self.materials.rows.flush(&self.gpu),
             self.instances.flush(&self.gpu),
             self.lights.flush(&self.gpu),
             self.drawn.flush(&self.gpu),
@@ -238,7 +231,7 @@ impl Scene {
         [
             &self.frame,
             self.instances.buffer(),
-            self.materials.buffer(),
+            self.materials.rows.buffer(),
             self.lights.buffer(),
             self.drawn.buffer(),
             self.object_lights.buffer(),
@@ -297,7 +290,7 @@ impl Scene {
 
     /// Bytes of rows uploaded since the last call.
     pub fn take_uploaded_bytes(&mut self) -> u64 {
-        self.materials.take_uploaded()
+        self.materials.rows.take_uploaded()
             + self.instances.take_uploaded()
             + self.lights.take_uploaded()
             + self.drawn.take_uploaded()
@@ -312,7 +305,12 @@ impl Scene {
         self.uploads
     }
 
-    /// What had to be changed to fit the device, once.
+    /// Keeps a warning for [`Scene::take_warnings`].
+    pub fn warn(&mut self, warning: String) {
+        self.warnings.push(warning);
+    }
+
+    /// What had to be changed to fit the device or the pipeline, once.
     pub fn take_warnings(&mut self) -> Vec<String> {
         std::mem::take(&mut self.warnings)
     }

@@ -308,7 +308,7 @@ fn unknown_name(name: &str, place: Place, file: &File) -> Problem {
         let names = file
             .listings
             .of_module(module)
-            .map(Listings::names)
+            .map(Listings::items)
             .unwrap_or_default();
         let problem = Problem::new(place, format!("`{module}` has no `{name}`"));
         return match suggestion(name, names.iter().map(String::as_str)) {

@@ -6,6 +6,7 @@
 mod attachments;
 mod every_adapter;
 mod kinds;
+mod models;
 mod order;
 mod resources;
 mod results;
@@ -33,6 +34,7 @@ pub fn validate(desc: &PipelineDesc, support: &impl FormatSupport) -> Result<(),
         unwritten: BTreeSet::new(),
     };
     checker.names();
+    checker.models();
     checker.targets();
     checker.buffers();
     for pass in &desc.passes {

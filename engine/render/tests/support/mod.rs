@@ -3,7 +3,7 @@
 
 use glam::{Quat, Vec3};
 use lightbench_assets::files::Files;
-use lightbench_assets::{Assets, Material, procedural};
+use lightbench_assets::{Assets, Material, Reflection, procedural};
 use lightbench_render::description::*;
 use lightbench_render::{Format, Gpu, GpuOptions, Pipeline, Place, Renderer, TargetImage, View};
 use lightbench_world::{Light, LightKind, MaterialId, MeshId, MeshRenderer, Transform, World};
@@ -40,8 +40,8 @@ impl Bench {
     pub fn material(&mut self, base_color: Vec3, specular: f32, power: f32) -> MaterialId {
         self.assets.add_material(Material {
             base_color,
-            specular,
-            power,
+            specular: Vec3::splat(specular),
+            reflection: Reflection::BlinnPhong { power },
             ..Material::default()
         })
     }
@@ -132,7 +132,7 @@ impl Bench {
     }
 }
 
-fn at() -> Place {
+pub fn at() -> Place {
     Place::new("test.rhai", 1, 1)
 }
 
@@ -247,7 +247,7 @@ pub fn forward(accumulation: &str, gather_lights: bool) -> PipelineDesc {
 pub fn deferred(accumulation: &str, volumes: bool) -> PipelineDesc {
     let kind = PassKind::Geometry(Geometry::default());
     let mut g_buffer = pass("g_buffer", kind, "shaders/deferred_shading/g_buffer.wgsl");
-    let names = ["hdr", "g_albedo", "g_normal", "g_power"];
+    let names = ["hdr", "g_albedo", "g_normal", "g_specular", "g_model"];
     g_buffer.colors = names
         .map(|name| writes(name, CLEAR, Blend::Replace))
         .to_vec();
@@ -260,7 +260,7 @@ pub fn deferred(accumulation: &str, volumes: bool) -> PipelineDesc {
         }),
         "shaders/deferred_shading/light.wgsl",
     );
-    lights.reads = ["depth", "g_albedo", "g_normal", "g_power"]
+    lights.reads = ["depth", "g_albedo", "g_normal", "g_specular", "g_model"]
         .map(read)
         .to_vec();
     lights.colors = vec![writes("hdr", Load::Keep, Blend::Add)];
@@ -273,7 +273,8 @@ pub fn deferred(accumulation: &str, volumes: bool) -> PipelineDesc {
             target("hdr", accumulation),
             target("g_albedo", "rgba8unorm"),
             target("g_normal", "rg16uint"),
-            target("g_power", "r8unorm"),
+            target("g_specular", "rgba8uint"),
+            target("g_model", "r8uint"),
         ],
         passes: vec![g_buffer, lights],
         ..Default::default()

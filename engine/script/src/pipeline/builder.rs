@@ -352,8 +352,9 @@ pub(super) fn register(api: &mut Api, made: &Pipelines) {
         (
             "supports(ability, text)",
             true,
-            "Says that the pipeline can do something, as `transparency` or `msaa`, and how. Any \
-             name will do; reports list them.",
+            "Says that the pipeline can do something, as `transparency` or `msaa`, and how. With \
+             `brdf_ggx` and its like it says which reflection models it draws; others give way to the \
+             nearest of these. Any other name will do; reports list them.",
         ),
         (
             "lacks(ability, reason)",

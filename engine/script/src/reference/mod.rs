@@ -1,10 +1,11 @@
-//! The reference of pipeline files and of the shader library, as Markdown.
+//! The reference of pipeline files, of the shader library and of experiments, as Markdown.
 //!
-//! Both pages are made from what the program itself knows: the functions that are registered with
+//! The pages are made from what the program itself knows: the functions that are registered with
 //! their texts, what these functions say when they are called wrongly ([`probe`]), and the files of
 //! the shader library. `lightbench docs` prints them; copies lie in the crate's `docs/` folder, and
 //! a test holds them to what is made now.
 
+mod experiments;
 mod functions;
 mod parts;
 mod pipelines;
@@ -13,5 +14,6 @@ mod shaders;
 #[cfg(test)]
 mod tests;
 
+pub use experiments::experiments;
 pub use pipelines::pipelines;
 pub use shaders::shaders;

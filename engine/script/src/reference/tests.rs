@@ -42,6 +42,11 @@ fn the_copies_are_what_is_made_now() {
         "lightbench docs pipelines",
     );
     same(
+        "experiments.md",
+        &experiments(),
+        "lightbench docs experiments",
+    );
+    same(
         "shaders.md",
         &shaders(&files).unwrap(),
         "lightbench docs shaders",

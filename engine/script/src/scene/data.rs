@@ -10,11 +10,11 @@ use lightbench_world::glam::Vec3;
 use lightbench_world::{Entity, Name, Stored, Transform, World};
 
 use super::models::Models;
-use super::parameters::SceneParameter;
 use super::recipes::Recipes;
 use crate::api::{Mistake, ScriptType};
 use crate::limits::{Limits, Watch};
 use crate::log::Log;
+use crate::parameters::SceneParameter;
 use crate::settings::Settings;
 
 impl ScriptType for Entity {

@@ -17,6 +17,8 @@ pub(super) struct Material {
     /// Whether the script has chosen a colour. A textured material without one shows the texture's
     /// colours as they are.
     colored: Arc<AtomicBool>,
+    /// Whether it has been given a power apart from the call that chose its reflection model.
+    pub(super) has_power: Arc<AtomicBool>,
 }
 
 impl ScriptType for Material {
@@ -24,7 +26,7 @@ impl ScriptType for Material {
 }
 
 /// Registers a method of a material that gives the material back.
-fn method(
+pub(super) fn method(
     api: &mut Api,
     stage: &Stage,
     form: &str,
@@ -62,6 +64,7 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
             Ok(Material {
                 id,
                 colored: Arc::default(),
+                has_power: Arc::default(),
             })
         },
     );
@@ -85,28 +88,7 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
             },
         );
     }
-    method(
-        api,
-        stage,
-        "specular(reflectance)",
-        "The share of light that it mirrors head-on, 0 to 1; most non-metals are near 0.04.",
-        |_, surface, _, a| {
-            surface.specular = a.number_in(0, 0.0, 1.0)? as f32;
-            Ok(())
-        },
-    );
-    method(
-        api,
-        stage,
-        "power(exponent)",
-        "How sharp its highlights are: the Blinn-Phong exponent, 1 (dull) to 1448 (near a mirror).",
-        |_, surface, _, a| {
-            let range = Surface::POWER_RANGE;
-            let (min, max) = (f64::from(*range.start()), f64::from(*range.end()));
-            surface.power = a.number_in(0, min, max)? as f32;
-            Ok(())
-        },
-    );
+    super::reflection::register(api, stage);
     method(
         api,
         stage,

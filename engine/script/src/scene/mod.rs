@@ -10,8 +10,8 @@ mod list;
 mod materials;
 mod models;
 mod motion;
-mod parameters;
 mod recipes;
+mod reflection;
 mod saved;
 mod shapes;
 mod state;
@@ -23,7 +23,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use lightbench_assets::cache::{Cache, Reuse};
 use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, Progress};
-use lightbench_render::problem::suggestion;
 use lightbench_render::{Place, Problem, Problems};
 use lightbench_world::systems::{FrameSystems, update_computed};
 use lightbench_world::{Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
@@ -32,13 +31,13 @@ use rhai::{AST, Dynamic, EvalAltResult, Module, Scope};
 use crate::host::{Extras, Host, find};
 use crate::limits::Limits;
 use crate::log::LogLine;
-use crate::names::{Names, list as enumerate};
+use crate::names::Names;
+use crate::parameters::{self, SceneParameter, undeclared};
 use crate::settings::Settings;
 use data::Stage;
 use saved::Textures;
 
 pub use list::{SceneEntry, list_scenes};
-pub use parameters::{SceneParameter, SceneParameterKind};
 pub use saved::EXTENSION as SCENE_EXTENSION;
 
 /// The folder of the scene files.
@@ -176,7 +175,11 @@ fn host(
             register: &mut |api, watch, log| {
                 watch.stop_with(progress);
                 let made = Stage::new(files, reuse, settings, limits, watch, log, progress);
-                parameters::register(api, &made);
+                let stage_of_parameters = made.clone();
+                parameters::register(api, move |arguments| {
+                    let data = &mut *stage_of_parameters.lock();
+                    parameters::declare(&mut data.parameters, &data.settings, arguments)
+                });
                 entities::register(api, &made);
                 motion::register(api, &made);
                 bounds::register(api, &made);
@@ -254,21 +257,7 @@ impl Scene {
         if !has_camera && let Err(mistake) = cameras::add_default(&mut data) {
             return Err(Problem::new(Place::file(self.path.as_str()), mistake.message).into());
         }
-        let names = || data.parameters.iter().map(|p| p.name.as_str());
-        let mut problems = Vec::new();
-        for (name, _) in data.settings.iter() {
-            if names().any(|known| known == name) {
-                continue;
-            }
-            let at = Place::file(self.path.as_str());
-            let mut problem = Problem::new(at, format!("the scene has no parameter `{name}`"));
-            problem.hint = Some(match suggestion(name, names()) {
-                Some(hint) => hint,
-                None if data.parameters.is_empty() => "it has no parameters".to_owned(),
-                None => format!("it has {}", enumerate(names(), "and")),
-            });
-            problems.push(problem);
-        }
+        let problems = undeclared("scene", &self.path, &data.parameters, &data.settings);
         if !problems.is_empty() {
             return Err(Problems(problems));
         }

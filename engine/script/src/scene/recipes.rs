@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use lightbench_assets::{Material, MeshId, TextureId};
+use lightbench_assets::{Material, MeshId, Reflection, TextureId};
 use lightbench_world::glam::Vec3;
 
 use super::faces::Corners;
@@ -60,7 +60,7 @@ pub(super) fn material(
         base_color,
         base_color_texture,
         specular,
-        power,
+        reflection,
         emissive,
         normal_texture,
         alpha_cutoff,
@@ -68,12 +68,24 @@ pub(super) fn material(
         two_sided,
     } = material;
     let mut recipe = format!(
-        "material({}).{}.specular({}).power({})",
+        "material({}).{}",
         spell_text(name),
         spell_call("color", color(*base_color)),
-        number(*specular),
-        number(*power)
     );
+    if *specular == Vec3::splat(specular.x) {
+        recipe += &format!(".specular({})", number(specular.x));
+    } else {
+        recipe += &format!(".{}", spell_call("specular", color(*specular)));
+    }
+    recipe += &match *reflection {
+        Reflection::BlinnPhong { power } => format!(".power({})", number(power)),
+        Reflection::Phong { power } => format!(".phong({})", number(power)),
+        Reflection::Beckmann { roughness } => format!(".beckmann({})", number(roughness)),
+        Reflection::Ggx { roughness } => format!(".ggx({})", number(roughness)),
+        Reflection::Ward { along, across } => {
+            format!(".ward({}, {})", number(along), number(across))
+        }
+    };
     if *emissive != Vec3::ZERO {
         recipe += &format!(".{}", spell_call("emissive", color(*emissive)));
     }

@@ -15,7 +15,12 @@ const MTL: &str = "newmtl paint\nKd 0.2 0.4 0.6\nNs 12.5\nmap_Kd p.bmp\n";
 const SCENE: &str = r#"
     let floor = material("floor").surface(tiles_texture().size(32).pieces(2).seed(3)).power(120);
     let wall = material("wall").color(hsv(30, 0.5, 0.7)).normals(brick_texture().size(16)).two_sided();
-    let glow = material("wall").emissive(kelvin(4000)).cutoff(0.3);
+    let glow = material("wall").emissive(kelvin(4000)).cutoff(0.3).phong(7.5);
+    let gold = material("gold").color(0, 0, 0).specular(1, 0.77, 0.34).ggx(0.0263);
+    let brushed = material("brushed").specular(0.9).ward(0.4, 0.1);
+    spawn("ring").mesh(torus(1, 0.25).segments(8, 4)).material(gold);
+    spawn("drum").mesh(cylinder(1, 2).segments(8)).material(brushed);
+    spawn("slate").mesh(box(1)).material(material("slate").beckmann(0.3));
     spawn("floor").mesh(plane(2.5, 4).segments(2, 3).repeat(0.1, 3)).material(floor);
     let ball = sphere(0.75).segments(8, 4);
     for i in 0..3 {

@@ -53,7 +53,7 @@ fn builds_a_world() {
     assert_eq!(first, last);
     assert_eq!(
         scene.assets.material(first.material).unwrap().specular,
-        0.04
+        Vec3::splat(0.04)
     );
     let lamp: Light = named(&scene, "lamp");
     assert_eq!(

@@ -9,6 +9,7 @@ use glam::{Vec2, Vec3};
 use tempfile::TempDir;
 
 use super::*;
+use crate::Reflection;
 use crate::images::save_png;
 
 struct Fixture {
@@ -217,18 +218,14 @@ fn materials_become_what_the_table_says() {
     assert_eq!(model.meshes[0].0.triangle_count(), 2);
     let oak = &model.materials[0];
     assert_eq!(oak.base_color, Vec3::new(0.5, 0.25, 0.125));
-    assert_eq!(oak.specular, 0.08);
-    assert_eq!(
-        (oak.power, oak.emissive),
-        (1448.0, Vec3::new(0.0, 0.0, 3.0))
-    );
+    assert_eq!(oak.specular, Vec3::splat(0.08));
+    assert_eq!(oak.reflection, Reflection::BlinnPhong { power: 1448.0 });
+    assert_eq!(oak.emissive, Vec3::new(0.0, 0.0, 3.0));
     assert_eq!((oak.alpha_cutoff, oak.two_sided), (Some(0.5), true));
     let gold = &model.materials[1];
-    assert!((gold.specular - 0.777_94).abs() < 1e-4, "{}", gold.specular);
-    assert_eq!(
-        (gold.power, gold.alpha_cutoff, gold.base_color_texture),
-        (1.0, None, None)
-    );
+    assert_eq!(gold.specular, Vec3::new(0.9, 0.8, 0.2));
+    assert_eq!(gold.reflection, Reflection::BlinnPhong { power: 1.0 });
+    assert_eq!((gold.alpha_cutoff, gold.base_color_texture), (None, None));
     assert!(gold.is_transparent() && !oak.is_transparent());
     assert_eq!(warnings(&model), [] as [&str; 0]);
 
@@ -255,6 +252,36 @@ fn materials_become_what_the_table_says() {
         .base_color_texture
         .unwrap();
     assert_eq!(assets.texture(texture).unwrap().name, "wood grain.png");
+}
+
+/// Metals take the colour of their textures point by point for what they scatter only.
+#[test]
+fn roughness_and_metal_choose_ggx() {
+    let fixture = Fixture::new();
+    fixture.png("rust.png", |_, _| [90, 40, 20, 255]);
+    fixture.write(
+        "a.mtl",
+        "newmtl brass\nKd 0.9 0.7 0.3\nKs 1 1 1\nNs 900\nPr 0.5\nPm 1\nmap_Kd rust.png\n\
+         newmtl clay\nKd 0.6 0.4 0.3\nPr 0.1\nnewmtl half\nKd 0.5 0.5 0.5\npm 0.5\n",
+    );
+    let faces = "usemtl brass\nf 1 2 3\nusemtl clay\nf 1 3 4\nusemtl half\nf 2 3 4\n";
+    let model = fixture.model(format!("mtllib a.mtl\n{SQUARE}{faces}"));
+    let [brass, clay, half] = model.materials.as_slice() else {
+        panic!("{:?}", model.materials);
+    };
+    assert_eq!(brass.base_color, Vec3::ZERO);
+    assert_eq!(brass.specular, Vec3::new(0.9, 0.7, 0.3));
+    assert_eq!(brass.reflection, Reflection::Ggx { roughness: 0.25 });
+    assert_eq!(clay.base_color, Vec3::new(0.6, 0.4, 0.3));
+    assert_eq!(clay.specular, Vec3::splat(0.04));
+    // The square of 0.1 is below the range.
+    let least = *Reflection::ROUGHNESS_RANGE.start();
+    assert_eq!(clay.reflection, Reflection::Ggx { roughness: least });
+    assert!(half.specular.abs_diff_eq(Vec3::splat(0.27), 1e-6));
+    assert_eq!(half.base_color, Vec3::splat(0.25));
+    let found = warnings(&model);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("the metal `brass`"), "{found:?}");
 }
 
 #[test]

@@ -1,14 +1,14 @@
 //! `param(…)`: what can be set from outside, as with `--set lights=256`.
 
-use lightbench_render::Place;
+use lightbench_render::problem::suggestion;
+use lightbench_render::{Place, Problem};
 use rhai::Dynamic;
 
-use super::data::{Data, Stage};
 use crate::api::{Api, Arguments, Mistake, as_number};
 use crate::names::list;
-use crate::settings::SettingValue;
+use crate::settings::{SettingValue, Settings};
 
-/// What values a parameter of a scene takes.
+/// What values a parameter of a scene or an experiment takes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneParameterKind {
     /// A number in an inclusive range.
@@ -31,7 +31,7 @@ pub enum SceneParameterKind {
     Text,
 }
 
-/// A parameter that a scene script declares.
+/// A parameter that a script declares with `param`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneParameter {
     /// Name.
@@ -99,7 +99,11 @@ impl SceneParameter {
     }
 }
 
-pub(super) fn register(api: &mut Api, stage: &Stage) {
+/// Registers `param` in all its forms. `declare` hands each call to [`declare`].
+pub(crate) fn register(
+    api: &mut Api,
+    declare: impl Fn(&Arguments) -> Result<Dynamic, Mistake> + Clone + Send + Sync + 'static,
+) {
     let about = "Declares a value that can be set from outside and gives the one in force: a \
                  number in a range (whole if the default is written without a point), `true` or \
                  `false`, one of an array of names, or a text. The last text says what it does.";
@@ -109,16 +113,19 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
         "param(name, default, min, max)",
         "param(name, default, min, max, about)",
     ] {
-        let stage = stage.clone();
-        api.function(form, about, move |arguments| {
-            declare(&mut stage.lock(), arguments)
-        });
+        let declare = declare.clone();
+        api.function(form, about, move |arguments| declare(arguments));
     }
 }
 
-fn declare(data: &mut Data, arguments: &Arguments) -> Result<Dynamic, Mistake> {
+/// Declares a parameter, and gives the value in force.
+pub(crate) fn declare(
+    parameters: &mut Vec<SceneParameter>,
+    settings: &Settings,
+    arguments: &Arguments,
+) -> Result<Dynamic, Mistake> {
     let name = arguments.text(0)?;
-    if let Some(first) = data.parameters.iter().find(|known| known.name == name) {
+    if let Some(first) = parameters.iter().find(|known| known.name == name) {
         return Err(Mistake::new(format!(
             "there is a parameter `{name}` already, in line {} of {}",
             first.at.line, first.at.file
@@ -138,12 +145,35 @@ fn declare(data: &mut Data, arguments: &Arguments) -> Result<Dynamic, Mistake> {
         value: default.clone(),
         default,
     };
-    if let Some(given) = data.settings.get(&parameter.name) {
+    if let Some(given) = settings.get(&parameter.name) {
         parameter.value = parameter.parse(given).map_err(Mistake::new)?;
     }
     let value = parameter.script_value();
-    data.parameters.push(parameter);
+    parameters.push(parameter);
     Ok(value)
+}
+
+/// A problem for each setting that the script, a `what`, did not declare.
+pub(crate) fn undeclared(
+    what: &str,
+    path: &str,
+    parameters: &[SceneParameter],
+    settings: &Settings,
+) -> Vec<Problem> {
+    let names = || parameters.iter().map(|parameter| parameter.name.as_str());
+    let unknown = settings
+        .iter()
+        .filter(|(name, _)| !names().any(|known| known == *name));
+    unknown
+        .map(|(name, _)| {
+            let message = format!("the {what} has no parameter `{name}`");
+            Problem::new(Place::file(path), message).with_hint(match suggestion(name, names()) {
+                Some(hint) => hint,
+                None if parameters.is_empty() => "it has no parameters".to_owned(),
+                None => format!("it has {}", list(names(), "and")),
+            })
+        })
+        .collect()
 }
 
 fn kind(arguments: &Arguments) -> Result<(SceneParameterKind, SettingValue), Mistake> {

@@ -1,0 +1,264 @@
+//! The laboratory of experiments: what [`FrameInspector`] can do, for scripts.
+
+use lightbench_assets::Progress;
+use lightbench_assets::cache::Cache;
+use lightbench_assets::files::Files;
+use lightbench_render::inspect::{FirstInvalid, Part, PixelValue, Shown};
+use lightbench_render::{
+    Compiler, Gpu, GpuOptions, Pipeline, PipelineDesc, Problems, RenderError, Renderer, TargetImage,
+};
+use lightbench_script::{
+    Laboratory, LaboratoryError, Limits, LogLine, Scene, Settings, Shot, load_pipeline,
+    load_scene_within,
+};
+
+use crate::capture::STEP;
+use crate::inspect::FrameInspector;
+use crate::shown::encode;
+
+/// Scenes that are kept for the next frame.
+const MOST_SCENES: usize = 4;
+/// Pipelines that are kept for the next frame.
+const MOST_PIPELINES: usize = 16;
+
+/// What a laboratory has to tell besides its results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Remark {
+    /// A scene's script printed it, or it is a warning of a model.
+    Scene(LogLine),
+    /// What had to be changed for a scene to fit the device.
+    Warning(String),
+}
+
+/// Draws frames for an experiment. The device opens with the first; scenes and pipelines are kept,
+/// so that frames with the same arguments load and compile nothing.
+pub struct Workbench {
+    files: Files,
+    gpu: GpuOptions,
+    progress: Progress,
+    tell: Box<dyn Fn(Remark) + Send>,
+    device: Option<Device>,
+    /// The one that was used last stands last.
+    scenes: Vec<Staged>,
+    /// The one that was used last stands last.
+    pipelines: Vec<Compiled>,
+    cache: Cache,
+    warned: Vec<String>,
+}
+
+struct Device {
+    renderer: Renderer,
+    compiler: Compiler,
+}
+
+/// A scene at a moment.
+struct Staged {
+    name: String,
+    settings: Settings,
+    frame: u32,
+    scene: Scene,
+}
+
+struct Compiled {
+    name: String,
+    settings: Settings,
+    pipeline: Pipeline,
+}
+
+impl Workbench {
+    /// A workbench over these files, on an adapter that is opened when it is needed. `tell` is given
+    /// each remark; cancelling `progress` stops what is being loaded.
+    pub fn new(
+        files: &Files,
+        gpu: GpuOptions,
+        progress: &Progress,
+        tell: impl Fn(Remark) + Send + 'static,
+    ) -> Self {
+        Self {
+            files: files.clone(),
+            gpu,
+            progress: progress.clone(),
+            tell: Box::new(tell),
+            device: None,
+            scenes: Vec::new(),
+            pipelines: Vec::new(),
+            cache: Cache::default(),
+            warned: Vec::new(),
+        }
+    }
+
+    /// Looks into a frame as if it were the first that is ever drawn.
+    fn look<T>(
+        &mut self,
+        shot: &Shot,
+        look: impl FnOnce(&mut FrameInspector<'_>) -> Result<T, RenderError>,
+    ) -> Result<T, LaboratoryError> {
+        if self.device.is_none() {
+            let gpu = Gpu::open(&self.gpu).map_err(RenderError::from)?;
+            let renderer = Renderer::new(gpu);
+            let compiler = renderer.compiler();
+            self.device = Some(Device { renderer, compiler });
+        }
+        self.bring_scene(shot)?;
+        self.bring_pipeline(shot)?;
+        let (Some(device), Some(staged), Some(compiled)) = (
+            &mut self.device,
+            self.scenes.last_mut(),
+            self.pipelines.last_mut(),
+        ) else {
+            return Err(LaboratoryError::Other(
+                "there is nothing to draw".to_owned(),
+            ));
+        };
+        // Nothing of another frame may show in this one. A new inspector gives the pipeline new
+        // targets and buffers, so history begins afresh too.
+        device.renderer.reset_scene();
+        let mut inspector = FrameInspector::new(
+            &mut device.renderer,
+            &self.files,
+            &mut staged.scene,
+            &mut compiled.pipeline,
+            shot.size,
+            shot.frame,
+        );
+        let found = look(&mut inspector);
+        drop(inspector);
+        for warning in device.renderer.take_warnings() {
+            // Each look begins anew, and would warn anew.
+            if !self.warned.contains(&warning) {
+                self.warned.push(warning.clone());
+                (self.tell)(Remark::Warning(warning));
+            }
+        }
+        Ok(found?)
+    }
+
+    /// Brings the shot's scene to its moment, and puts it last.
+    fn bring_scene(&mut self, shot: &Shot) -> Result<(), LaboratoryError> {
+        let known = self
+            .scenes
+            .iter()
+            .position(|staged| staged.name == shot.scene && staged.settings == shot.scene_settings);
+        let known = known.map(|index| self.scenes.remove(index));
+        // Scenes step forward alone.
+        let mut staged = match known.filter(|staged| staged.frame <= shot.frame) {
+            Some(staged) => staged,
+            None => self.load_scene(shot)?,
+        };
+        while staged.frame < shot.frame {
+            if self.progress.is_cancelled() {
+                return Err(LaboratoryError::Other("stopped".to_owned()));
+            }
+            staged.frame += 1;
+            let time = f64::from(staged.frame) * STEP;
+            let stepped = staged.scene.update(time, STEP);
+            stepped.map_err(Problems::from)?;
+        }
+        staged.scene.refresh();
+        for line in staged.scene.take_log() {
+            (self.tell)(Remark::Scene(line));
+        }
+        self.scenes.push(staged);
+        if self.scenes.len() > MOST_SCENES {
+            self.scenes.remove(0);
+        }
+        Ok(())
+    }
+
+    fn load_scene(&self, shot: &Shot) -> Result<Staged, LaboratoryError> {
+        let scene = load_scene_within(
+            &self.files,
+            &shot.scene,
+            &shot.scene_settings,
+            &self.progress,
+            &self.cache,
+            &Limits::default(),
+        )?;
+        Ok(Staged {
+            name: shot.scene.clone(),
+            settings: shot.scene_settings.clone(),
+            frame: 0,
+            scene,
+        })
+    }
+
+    /// Builds the shot's pipeline where it is not known yet, and puts it last.
+    fn bring_pipeline(&mut self, shot: &Shot) -> Result<(), LaboratoryError> {
+        let settings = &shot.pipeline_settings;
+        let known = self
+            .pipelines
+            .iter()
+            .position(|compiled| compiled.name == shot.pipeline && compiled.settings == *settings);
+        let compiled = match known {
+            Some(index) => self.pipelines.remove(index),
+            None => self.build_pipeline(shot)?,
+        };
+        self.pipelines.push(compiled);
+        if self.pipelines.len() > MOST_PIPELINES {
+            self.pipelines.remove(0);
+        }
+        Ok(())
+    }
+
+    fn build_pipeline(&mut self, shot: &Shot) -> Result<Compiled, LaboratoryError> {
+        let desc = load_pipeline(&self.files, &shot.pipeline, &shot.pipeline_settings)?;
+        // Where only values of parameters differ, one that was built takes them over.
+        let adopting = self.pipelines.iter_mut().position(|compiled| {
+            compiled.name == shot.pipeline && compiled.pipeline.adopt_values(&desc)
+        });
+        if let Some(index) = adopting {
+            let mut compiled = self.pipelines.remove(index);
+            compiled.settings = shot.pipeline_settings.clone();
+            return Ok(compiled);
+        }
+        let Some(device) = &mut self.device else {
+            return Err(LaboratoryError::Other("no device is open".to_owned()));
+        };
+        Ok(Compiled {
+            name: shot.pipeline.clone(),
+            settings: shot.pipeline_settings.clone(),
+            pipeline: device.compiler.compile(&self.files, &desc)?,
+        })
+    }
+}
+
+impl Laboratory for Workbench {
+    fn draw(&mut self, shot: &Shot) -> Result<PipelineDesc, LaboratoryError> {
+        self.look(shot, |inspector| inspector.whole())?;
+        let drawn = self.pipelines.last();
+        Ok(drawn
+            .map(|drawn| drawn.pipeline.desc.clone())
+            .unwrap_or_default())
+    }
+
+    fn target(
+        &mut self,
+        shot: &Shot,
+        pass: usize,
+        target: &str,
+        part: Part,
+    ) -> Result<TargetImage, LaboratoryError> {
+        self.look(shot, |inspector| inspector.target(pass, target, part))
+    }
+
+    fn pixel(
+        &mut self,
+        shot: &Shot,
+        pixel: (u32, u32),
+    ) -> Result<Vec<PixelValue>, LaboratoryError> {
+        self.look(shot, |inspector| inspector.history(pixel))
+    }
+
+    fn first_invalid(&mut self, shot: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError> {
+        self.look(shot, |inspector| inspector.first_invalid())
+    }
+
+    fn encode(
+        &self,
+        path: &str,
+        image: &TargetImage,
+        shown: Shown,
+    ) -> Result<Vec<u8>, LaboratoryError> {
+        encode(path, image, shown).map_err(|error| LaboratoryError::Other(error.to_string()))
+    }
+}
