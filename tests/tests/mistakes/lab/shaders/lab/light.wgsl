@@ -17,8 +17,7 @@ fn fragment_main(
     let normal = textureLoad(g_normal, texel, 0);
     let resolution = vec2f(textureDimensions(depth));
     let position = scene::position_from_depth(pixel.xy, resolution, textureLoad(depth, texel, 0));
-    let found = surface::Surface(position, normal.xyz, color.rgb, vec3f(color.a), vec3f(0.0), 1.0,
-        0u, normal.ww, vec3f(0.0));     // Blinn-Phong, its exponent, no tangent
+    let found = surface::Surface(position, normal.xyz, color.rgb, vec3f(color.a), vec3f(0.0), 1.0, 0u, normal.ww, vec3f(0.0));
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - position);
     let radiance = lighting::evaluate_light(scene::lights[light], found, to_viewer);
     return vec4f(radiance, 0.0);

@@ -29,5 +29,5 @@ fn fragment_main(
     @builtin(front_facing) front_facing: bool,
 ) -> Texels {
     let found = surface::fragment_surface(in, front_facing);
-    return Texels(vec4f(found.base_color, found.specular.x), vec4f(found.normal, found.lobe.x));
+    return Texels(vec4f(found.base_color, found.specular.r), vec4f(found.normal, found.lobe.x));
 }
