@@ -196,7 +196,7 @@ impl ShaderComposer {
                 };
                 let explained = guard::catch(|| self.explain(&error, &listings, module.as_ref()));
                 let mut problem = explained.unwrap_or_else(|fault| unexpected(path, &fault));
-                if problem.place == Place::file(path) {
+                if problem.place.line == 0 {
                     self.find_line(&error, &mut problem, &listings, defines);
                 }
                 return Err(problem);
@@ -289,7 +289,7 @@ impl ShaderComposer {
         }
     }
 
-    /// Finds the line of a complaint of the reader about the shader itself that names none.
+    /// Finds the line of a complaint of the reader that names none.
     fn find_line(
         &mut self,
         error: &ComposerError,
@@ -300,25 +300,58 @@ impl ShaderComposer {
         let ComposerErrorInner::WgslParseError(complaint) = &error.inner else {
             return;
         };
+        let Some(file) = listings.of_path(&problem.place.file) else {
+            return;
+        };
         let said = complaint.message();
         if let Some((message, hint)) = narrow::in_words(said) {
             problem.message = message;
             problem.hint = Some(hint.to_owned());
         }
-        let shader = listings.shader();
-        let same = |text: &str| match self.make(&shader.path, text, defines, false) {
-            Ok(Err(error)) => match &error.inner {
-                ComposerErrorInner::WgslParseError(other) => other.message() == said,
-                _ => false,
-            },
-            _ => false,
+        let same = |text: &str| {
+            let error = self.complaint_with(file, text, listings.shader(), defines);
+            error.is_some_and(|other| other == said)
         };
         // Where it is in no function, the first line is as good as any.
-        let line = narrow::line_of(&shader.text, &shader.active, same).unwrap_or(1);
-        let written = shader.text.lines().nth(line as usize - 1).unwrap_or("");
+        let line = narrow::line_of(&file.text, &file.active, same).unwrap_or(1);
+        let written = file.text.lines().nth(line as usize - 1).unwrap_or("");
         let indent = written.chars().take_while(|c| c.is_whitespace()).count() as u32;
-        problem.place = Place::new(shader.path.as_str(), line, indent + 1);
-        *problem = problem.clone().with_source(&shader.text);
+        problem.place = Place::new(file.path.as_str(), line, indent + 1);
+        *problem = problem.clone().with_source(&file.text);
+        // Modules may have been taken in with parts left out.
+        self.begin_again();
+    }
+
+    /// What the reader says of a shader with another text in one of its files.
+    fn complaint_with(
+        &mut self,
+        file: &Listing,
+        text: &str,
+        shader: &Listing,
+        defines: &[Define],
+    ) -> Option<String> {
+        let text_of_shader = if file.path == shader.path {
+            text
+        } else {
+            let descriptor = ComposableModuleDescriptor {
+                source: text,
+                file_path: &file.path,
+                ..Default::default()
+            };
+            let composer = &mut self.composer;
+            let added = guard::catch(|| composer.add_composable_module(descriptor).is_ok());
+            if added != Ok(true) {
+                return None;
+            }
+            shader.text.as_str()
+        };
+        match self.make(&shader.path, text_of_shader, defines, false) {
+            Ok(Err(error)) => match &error.inner {
+                ComposerErrorInner::WgslParseError(other) => Some(other.message().to_owned()),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     fn explain(
