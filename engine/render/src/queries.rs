@@ -58,6 +58,21 @@ pub struct Measured {
     pub counters: Vec<u32>,
 }
 
+impl Measured {
+    /// Nothing yet, with memory for all that a frame can measure: when results come back is the
+    /// driver's choice, and none of them should make a frame allocate.
+    fn with_room() -> Self {
+        let passes = MAX_PASSES as usize;
+        Self {
+            gpu_ms: Vec::with_capacity(passes),
+            fragments: Vec::with_capacity(passes),
+            vertices: Vec::with_capacity(passes),
+            counters: Vec::with_capacity(MAX_COUNTERS),
+            ..Self::default()
+        }
+    }
+}
+
 /// Where the results of a pass lie in the query sets. Only queries that are written may be
 /// resolved, so passes that are not measured have none.
 #[derive(Clone, Copy, Debug, Default)]
@@ -159,8 +174,8 @@ impl Queries {
                 .collect(),
             current: None,
             period_ns: f64::from(gpu.queue.get_timestamp_period()),
-            found: Vec::new(),
-            spare: Vec::new(),
+            found: Vec::with_capacity(RING),
+            spare: (0..RING).map(|_| Measured::with_room()).collect(),
         }
     }
 

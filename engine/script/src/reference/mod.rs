@@ -1,7 +1,7 @@
 //! The reference of pipeline files, of the shader library and of experiments, as Markdown.
 //!
 //! The pages are made from what the program itself knows: the functions that are registered with
-//! their texts, what these functions say when they are called wrongly ([`probe`]), and the files of
+//! their texts, what these functions say when they are called wrongly (`probe`), and the files of
 //! the shader library. `lightbench docs` prints them; copies lie in the crate's `docs/` folder, and
 //! a test holds them to what is made now.
 
