@@ -158,7 +158,7 @@ fn mistakes_and_assertions_name_their_line() {
             "frame.target(\"sum\", #{ mip: 1 });",
             &[
                 "mine.rhai:2:",
-                "`sum` has 1 mip levels",
+                "`sum` has 1 mip level",
                 "`mip` goes from 0 to 0",
             ],
         ),

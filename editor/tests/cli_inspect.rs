@@ -128,7 +128,7 @@ fn what_is_not_there_is_said_with_the_way_out() {
         project.run(&[&STEPS[..], more].concat()).failed(2, parts);
     }
     let more = ["--target", "sum", "--mip", "3", "--out", "x.png"];
-    let parts = ["`sum` has 1 mip levels and 1 layers"];
+    let parts = ["`sum` has 1 mip level and 1 layer"];
     project.run(&[&STEPS[..], &more].concat()).failed(1, &parts);
     assert!(fs::metadata(project.file("x.png")).is_err());
 }

@@ -42,9 +42,8 @@ fn a_heat_map_takes_the_place_of_the_picture_and_stays_when_the_pipeline_changes
     assert_eq!(bench.picture(), picture);
 }
 
-#[test]
-fn a_click_tells_what_each_pass_did_to_the_pixel() {
-    let mut bench = Bench::open();
+/// Clicks, and compares what is said of the last pass with what is on the screen.
+fn click_and_compare(bench: &mut Bench) {
     bench.click_at(egui::pos2(300.0, 350.0));
     bench.until("the values", |editor| {
         !editor.workbench.probing.is_waiting() && !editor.workbench.probing.values.is_empty()
@@ -73,6 +72,12 @@ fn a_click_tells_what_each_pass_did_to_the_pixel() {
             "{texel:?} and {said:?}"
         );
     }
+}
+
+#[test]
+fn a_click_tells_what_each_pass_did_to_the_pixel() {
+    let mut bench = Bench::open();
+    click_and_compare(&mut bench);
     bench.harness.run_steps(2);
     assert!(bench.count("g_albedo") > 0, "the table is on the screen");
 
@@ -82,6 +87,26 @@ fn a_click_tells_what_each_pass_did_to_the_pixel() {
     });
     bench.harness.run_steps(2);
     assert!(bench.count("Every value that a pass writes is a finite number.") > 0);
+}
+
+/// On slow adapters what changes is drawn small at first; what is looked into is not.
+#[test]
+fn a_click_reads_the_picture_that_is_on_the_screen_whatever_its_scale() {
+    let mut bench = Bench::open();
+    let full = bench.harness.state().workbench.drawn_size();
+    let resolution = &mut bench.harness.state_mut().workbench.resolution;
+    resolution.adaptive = true;
+    resolution.measured(resolution.scale(true), 10_000.0);
+    assert!(resolution.scale(true) < 0.2);
+    click_and_compare(&mut bench);
+    let workbench = &mut bench.harness.state_mut().workbench;
+    assert_eq!(workbench.drawn_size(), full);
+    let first = workbench.probing.values.clone();
+    workbench.probe_again();
+    bench.until("the values", |editor| {
+        !editor.workbench.probing.is_waiting()
+    });
+    assert_eq!(bench.harness.state().workbench.probing.values, first);
 }
 
 #[test]

@@ -165,7 +165,7 @@ fn mips_layers_sides_slices_and_stencil_are_read() {
     let error = look.target(last, "volume", part(0, 5)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "`volume` has 1 mip levels and 5 layers, both counted from 0"
+        "`volume` has 1 mip level and 5 layers, both counted from 0"
     );
 
     let stencil = Part {

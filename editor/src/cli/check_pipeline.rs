@@ -2,6 +2,7 @@
 
 use clap::Args;
 use lightbench::assets::files::Files;
+use lightbench::render::problem::counted;
 use lightbench::render::{Gpu, Renderer};
 use lightbench::script::{Settings, load_pipeline};
 
@@ -48,10 +49,10 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         .compile(&files, &desc)
         .map_err(|problems| report::problems(&files, problems))?;
     say(format!(
-        "{}: {} targets, {} passes, no mistakes",
+        "{}: {}, {}, no mistakes",
         files.display(&desc.file.file),
-        desc.targets.len(),
-        desc.passes.len()
+        counted(desc.targets.len(), "target"),
+        counted(desc.passes.len(), "pass")
     ))?;
     for name in compiled.lives().dropped(&compiled.desc) {
         say(format!(

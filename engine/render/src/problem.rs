@@ -193,6 +193,16 @@ fn edit_distance(a: &str, b: &str) -> usize {
     above[b.len()]
 }
 
+/// A number and what it counts, as in "1 layer" and "5 layers".
+pub fn counted(count: usize, what: &str) -> String {
+    let ending = match (count, what.ends_with('s')) {
+        (1, _) => "",
+        (_, true) => "es",
+        (_, false) => "s",
+    };
+    format!("{count} {what}{ending}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

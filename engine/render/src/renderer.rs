@@ -1,31 +1,31 @@
 //! The renderer: a device, a scene on it, and frames through pipelines.
 
+mod error;
+mod reading;
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use glam::Mat4;
 use lightbench_assets::Assets;
-use lightbench_assets::files::Files;
 use lightbench_world::{SystemTime, World, systems};
 
 use crate::compile::Compiler;
-use crate::description::Slice;
 use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
-use crate::inspect::{Aspect, Inspector, read_any};
+use crate::inspect::Inspector;
 use crate::layout::SceneLayout;
 use crate::pipeline::Pipeline;
-use crate::problem::Problem;
 use crate::queries::{Measured, Queries};
-use crate::readback::{TargetImage, read_bytes, read_image};
 use crate::record::{Recording, is_cold, measures, record, warm};
 use crate::room::check_room;
 use crate::scene::{Scene, Uploads};
 use crate::statistics::FrameStatistics;
-use crate::targets::{Target, Targets};
-use crate::variant::Variants;
+use crate::targets::Targets;
 use crate::view::View;
+
+pub use error::RenderError;
 
 /// How often a frame is drawn before a buffer that is still too small is left so.
 const MOST_ATTEMPTS: usize = 4;
@@ -71,62 +71,6 @@ impl Views {
         self.before = self.before(index);
         self.last = Some((index, view_projection));
     }
-}
-
-/// Why a frame could not be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum RenderError {
-    /// The device failed.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The scene does not fit the device.
-    #[error("{0}")]
-    Scene(String),
-    /// The pipeline can't be drawn at the size.
-    #[error("{0}")]
-    Room(String),
-    /// The scene has meshes that the pipeline was not compiled for.
-    #[error("the pipeline is not built yet for all meshes of the scene")]
-    NotBuilt(Variants),
-    /// A shader that looks into frames has a mistake.
-    #[error("{0}")]
-    Shader(Problem),
-    /// A target was asked for that the pipeline does not have, or before the first frame.
-    #[error("the pipeline has no target `{0}` yet")]
-    NoTarget(String),
-    /// A mip level or layer was asked for that the target does not have.
-    #[error("`{target}` has {mips} mip levels and {layers} layers, both counted from 0")]
-    NoSlice {
-        /// The target.
-        target: String,
-        /// Its mip levels.
-        mips: u32,
-        /// Its layers.
-        layers: u32,
-    },
-    /// A sample was asked for that the target does not have.
-    #[error("`{target}` has {samples} samples a texel, counted from 0")]
-    NoSample {
-        /// The target.
-        target: String,
-        /// Its samples.
-        samples: u32,
-    },
-    /// Stencil was asked for of a target that has none.
-    #[error("`{0}` has no stencil")]
-    NoStencil(String),
-    /// The size asked for is beyond the device.
-    #[error(
-        "{width} × {height} is more than this device draws; its limit is {limit} in each direction"
-    )]
-    Size {
-        /// Asked for.
-        width: u32,
-        /// Asked for.
-        height: u32,
-        /// The device's limit.
-        limit: u32,
-    },
 }
 
 impl Renderer {
@@ -468,115 +412,5 @@ impl Renderer {
     pub fn finish(&mut self, seconds: u64) -> Result<Vec<Measured>, GpuError> {
         self.gpu.wait(seconds)?;
         Ok(self.queries.collect().to_vec())
-    }
-
-    /// The display-ready picture of the last frame, 8 bits a channel, sRGB, rows from the top.
-    ///
-    /// # Errors
-    /// Before the first frame, or when the device failed.
-    pub fn read_output(&self, pipeline: &Pipeline) -> Result<(u32, u32, Vec<u8>), RenderError> {
-        let name = pipeline
-            .desc
-            .output
-            .as_ref()
-            .map_or("output", |output| output.name.as_str());
-        let texture = self.texture(pipeline, name)?;
-        Ok((
-            texture.width(),
-            texture.height(),
-            read_bytes(&self.gpu, texture)?,
-        ))
-    }
-
-    /// The linear HDR picture of the last frame, if the pipeline names one.
-    ///
-    /// # Errors
-    /// As [`Renderer::read_output`].
-    pub fn read_hdr(&self, pipeline: &Pipeline) -> Result<Option<TargetImage>, RenderError> {
-        match &pipeline.desc.hdr {
-            Some(hdr) => self.read_target(pipeline, &hdr.name).map(Some),
-            None => Ok(None),
-        }
-    }
-
-    /// Any target of the last frame, its first layer.
-    ///
-    /// Targets may share a texture with another, and then hold what that one holds: see
-    /// [`Pipeline::keep_all_targets`].
-    ///
-    /// # Errors
-    /// As [`Renderer::read_output`].
-    pub fn read_target(&self, pipeline: &Pipeline, name: &str) -> Result<TargetImage, RenderError> {
-        self.read_target_slice(pipeline, name, Slice::default())
-    }
-
-    /// One mip level of one layer of a target of the last frame.
-    ///
-    /// # Errors
-    /// As [`Renderer::read_output`], and where there is no such level or layer.
-    pub fn read_target_slice(
-        &self,
-        pipeline: &Pipeline,
-        name: &str,
-        slice: Slice,
-    ) -> Result<TargetImage, RenderError> {
-        let target = pipeline.targets().and_then(|targets| targets.get(name));
-        let target = target.ok_or_else(|| RenderError::NoTarget(name.to_owned()))?;
-        self.check_slice(target, slice)?;
-        Ok(read_image(&self.gpu, &target.texture, slice)?)
-    }
-
-    /// One sample of a mip level and layer of any target of the last frame, or its stencil: also of
-    /// targets that [`Renderer::read_target`] can't copy. Its shader comes from `files`.
-    ///
-    /// # Errors
-    /// As [`Renderer::read_target_slice`], and where there is no such sample or no stencil.
-    pub fn read_target_any(
-        &self,
-        pipeline: &Pipeline,
-        files: &Files,
-        name: &str,
-        slice: Slice,
-        sample: u32,
-        aspect: Aspect,
-    ) -> Result<TargetImage, RenderError> {
-        let texture = self.texture(pipeline, name)?;
-        let samples = texture.sample_count();
-        if sample >= samples {
-            return Err(RenderError::NoSample {
-                target: name.to_owned(),
-                samples,
-            });
-        }
-        if aspect == Aspect::Stencil && !texture.format().has_stencil_aspect() {
-            return Err(RenderError::NoStencil(name.to_owned()));
-        }
-        let target = pipeline.targets().and_then(|targets| targets.get(name));
-        let target = target.ok_or_else(|| RenderError::NoTarget(name.to_owned()))?;
-        self.check_slice(target, slice)?;
-        read_any(&self.gpu, files, target, slice, sample, aspect)
-    }
-
-    fn check_slice(&self, target: &Target, slice: Slice) -> Result<(), RenderError> {
-        let mips = target.texture.mip_level_count();
-        if slice.mip < mips && slice.layer < target.layers_of_mip(slice.mip) {
-            return Ok(());
-        }
-        Err(RenderError::NoSlice {
-            target: target.name.clone(),
-            mips,
-            layers: target.layers_of_mip(0),
-        })
-    }
-
-    fn texture<'a>(
-        &self,
-        pipeline: &'a Pipeline,
-        name: &str,
-    ) -> Result<&'a wgpu::Texture, RenderError> {
-        let target = pipeline.targets().and_then(|targets| targets.get(name));
-        target
-            .map(|target| &target.texture)
-            .ok_or_else(|| RenderError::NoTarget(name.to_owned()))
     }
 }

@@ -420,7 +420,6 @@ fn every_function_of_numbers_is_tried_with_both() {
         "animate_rotation",
         "animate_scale",
         "animation_repeat",
-        "clip_volume",
         "load_gltf",
         "load_model",
         "model_mesh",

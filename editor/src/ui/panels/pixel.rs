@@ -21,7 +21,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         if let Some((x, y)) = workbench.probing.pixel {
             ui.label(RichText::new(format!("Pixel {x}, {y}")).monospace());
             if ui.button("Read again").clicked() {
-                workbench.probe((x, y));
+                workbench.probe_again();
             }
         }
         if workbench.probing.is_waiting() {

@@ -82,7 +82,7 @@ fn probe(editor: &mut Editor, rect: Rect, at: Pos2) {
 /// Marks the pixel that was asked for last.
 fn probed_pixel(editor: &Editor, ui: &Ui, rect: Rect) {
     let workbench = &editor.workbench;
-    let (Some((x, y)), Some((width, height))) = (workbench.probing.pixel, workbench.drawn_size())
+    let (Some((x, y)), Some((width, height))) = (workbench.probing.pixel, workbench.probing.size)
     else {
         return;
     };
@@ -243,7 +243,7 @@ fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let third = if editor.workbench.files().project().is_some() {
         "Save a shader or script of your project, and the picture follows."
     } else {
-        "To change shaders and scripts, make a project: lightbench new DIR"
+        "To change shaders and scripts, make a project: lightbench new project DIR"
     };
     let lines = [
         "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",

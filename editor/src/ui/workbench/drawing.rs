@@ -37,6 +37,8 @@ pub(super) struct Canvas {
     drawn: Option<Drawn>,
     /// Something other than view and size changed since.
     stale: bool,
+    /// The same picture is wanted once more, at the same size: somebody looks into it.
+    again: bool,
     moved_at: Option<Instant>,
     drawn_at: Option<Instant>,
     /// Submitted frames and their scales.
@@ -50,6 +52,11 @@ impl Canvas {
     /// The picture no longer shows the present state.
     pub(super) fn invalidate(&mut self) {
         self.stale = true;
+    }
+
+    /// Draws once more what is on screen.
+    pub(super) fn repeat(&mut self) {
+        self.again = true;
     }
 
     /// As [`Canvas::invalidate`], and the next frames compile shaders.
@@ -97,12 +104,18 @@ impl Workbench {
             self.canvas.moved_at = Some(now);
         }
         let moving = self.canvas.moved_at.is_some_and(|at| now - at < REST);
-        let scale = self.resolution.scale(moving);
+        let scale = match before {
+            Some(drawn) if self.canvas.again => drawn.scale,
+            _ => self.resolution.scale(moving),
+        };
         let wanted = Drawn { view, size, scale };
         self.warm_up(wanted);
         let held = self.canvas.drawn_at.is_some_and(|at| now - at < HOLD);
         let held = held && (self.pipelines.is_renewing() || self.scenes.is_renewing());
-        if (self.canvas.stale || before != Some(wanted)) && !held && self.has_room() {
+        if (self.canvas.stale || self.canvas.again || before != Some(wanted))
+            && !held
+            && self.has_room()
+        {
             self.canvas.drawn_at = Some(now);
             self.redraw(wanted);
         }
@@ -162,7 +175,8 @@ impl Workbench {
         };
         let soon = [
             (ready && self.clock.playing).then_some(soonest),
-            (ready && self.canvas.stale && self.canvas.problem.is_none()).then_some(soonest),
+            (ready && (self.canvas.stale || self.canvas.again) && self.canvas.problem.is_none())
+                .then_some(soonest),
             (self.timings.is_waiting() || self.probing.is_waiting()).then_some(RESULTS),
             (self.scenes.shown().is_some() && self.pipelines.is_warming()).then_some(DEVICE),
             (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
@@ -233,6 +247,7 @@ impl Workbench {
             .renderer
             .render(world, assets, pipeline, &wanted.view, size, time);
         self.canvas.stale = false;
+        self.canvas.again = false;
         match result {
             Ok(statistics) => {
                 self.timings.submitted(frame, statistics);

@@ -26,6 +26,8 @@ pub struct Written {
 pub struct Probing {
     /// The pixel that was asked for last, from the upper left corner of the picture.
     pub pixel: Option<(u32, u32)>,
+    /// The size of the picture in which it was asked for.
+    pub size: Option<(u32, u32)>,
     /// What the passes did to it, in their order.
     pub values: Vec<Written>,
     /// The result of the last search for values that are no numbers, in words.
@@ -50,7 +52,26 @@ impl Workbench {
             pixel: Some(pixel),
             search: false,
         });
+        self.probing.size = self.drawn_size();
         self.probing.pixel = Some(pixel);
+    }
+
+    /// Asks the same of the place that was asked for last, which is another pixel where the picture
+    /// is of another size now.
+    pub fn probe_again(&mut self) {
+        let probing = &self.probing;
+        let (Some(pixel), Some(before), Some(now)) =
+            (probing.pixel, probing.size, self.drawn_size())
+        else {
+            return;
+        };
+        let scaled = |at: u32, before: u32, now: u32| {
+            (u64::from(at) * u64::from(now) / u64::from(before.max(1))) as u32
+        };
+        self.probe((
+            scaled(pixel.0, before.0, now.0),
+            scaled(pixel.1, before.1, now.1),
+        ));
     }
 
     /// Asks for the first pass of the next frame that leaves a value that is no number, or infinite.
@@ -71,7 +92,7 @@ impl Workbench {
         }
         self.probing.waiting = true;
         self.renderer.inspector().probe(&self.files, request);
-        self.canvas.invalidate();
+        self.canvas.repeat();
     }
 
     /// Takes in an answer.

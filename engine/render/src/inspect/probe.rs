@@ -20,7 +20,7 @@ use crate::targets::Target;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ProbeRequest {
     /// A pixel of the output, from the upper left corner: its value before and after each pass, in
-    /// each target that the pass writes.
+    /// each target that the pass writes. Outside of the picture there are none.
     pub pixel: Option<(u32, u32)>,
     /// Whether to look in everything that is written for values that are no numbers, or infinite.
     pub search: bool,
@@ -127,8 +127,9 @@ const STEP: usize = 256;
 
 const IDLE: u8 = 0;
 const ASKED: u8 = 1;
-const READY: u8 = 2;
-const FAILED: u8 = 3;
+const MAPPING: u8 = 2;
+const READY: u8 = 3;
+const FAILED: u8 = 4;
 
 /// One reading: where its answer is, and what it is about.
 struct Reading {
@@ -243,6 +244,11 @@ impl Prober {
         files: &Files,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), Problem> {
+        let (width, height) = at.targets.size;
+        let outside = |(x, y): (u32, u32)| x >= width || y >= height;
+        if what != What::Search && self.request.pixel.is_none_or(outside) {
+            return Ok(());
+        }
         let mut result = Ok(());
         written(at.pass, at.targets, at.frame, at.list, |target, slice| {
             let stencil = Format(target.texture.format()).has_stencil() && what != What::Search;
@@ -351,6 +357,7 @@ impl Prober {
         let Some(buffers) = &self.buffers else {
             return;
         };
+        self.state.store(MAPPING, Ordering::Release);
         let state = Arc::clone(&self.state);
         buffers
             .back
