@@ -1,38 +1,36 @@
 // Clustered deferred shading: each pixel of the G-buffer sums the lights of its cluster.
 //
-// In:  depth and G-buffer; the lists of clusters. TILE and SLICES as in shaders/lib/clusters.wgsl.
+// In:  what shaders/lib/g_buffer_texels.wgsl reads; the lists of clusters. TILE and SLICES as in
+//      shaders/lib/clusters.wgsl, EVERY_SAMPLE as in shaders/deferred_shading/light.wgsl.
 // Out: radiance to add to what the surface emits.
 // Follows Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading".
 #import lightbench::scene
 #import lightbench::surface
 #import lightbench::lighting
-#import lightbench::g_buffer
+#import lightbench::g_buffer_texels
 #import lightbench::culling
 #import lightbench::clusters
 
-@group(1) @binding(0) var depth: texture_depth_2d;
-@group(1) @binding(1) var g_albedo: texture_2d<f32>;
-@group(1) @binding(2) var g_normal: texture_2d<u32>;
-@group(1) @binding(3) var g_specular: texture_2d<u32>;
-@group(1) @binding(4) var g_model: texture_2d<u32>;
-@group(1) @binding(5) var<storage, read> cluster_lists: array<vec2u>;
-@group(1) @binding(6) var<storage, read> cluster_lights: array<u32>;
+@group(1) @binding(0) var<storage, read> cluster_lists: array<vec2u>;
+@group(1) @binding(1) var<storage, read> cluster_lights: array<u32>;
 
 @fragment
-fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let texel = vec2i(pixel.xy);
-    let texel_depth = textureLoad(depth, texel, 0);
+fn fragment_main(
+    @builtin(position) pixel: vec4f,
+#ifdef EVERY_SAMPLE
+    @builtin(sample_index) sample: u32,
+#endif
+) -> @location(0) vec4f {
+#ifndef EVERY_SAMPLE
+    let sample = 0u;
+#endif
+    let texel = vec2u(pixel.xy);
+    let texel_depth = g_buffer_texels::depth_at(texel, sample);
     if texel_depth == 0.0 {
         // The far plane: nothing was drawn here, so there is nothing to light.
         return vec4f(0.0);
     }
-    let fragment = g_buffer::unpack(
-        scene::position_from_depth(pixel.xy, vec2f(textureDimensions(depth)), texel_depth),
-        textureLoad(g_albedo, texel, 0),
-        textureLoad(g_normal, texel, 0).xy,
-        textureLoad(g_specular, texel, 0),
-        textureLoad(g_model, texel, 0).r,
-    );
+    let fragment = g_buffer_texels::surface_at(texel, sample);
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - fragment.position);
 
     let list = cluster_lists[clusters::cluster_of(pixel.xy, culling::view_distance(texel_depth))];

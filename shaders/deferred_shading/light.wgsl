@@ -1,47 +1,31 @@
 // Deferred shading, second pass: one light adds its share to each pixel of its volume.
 //
-// In:  the light; the G-buffer; depth.
+// In:  the light; what shaders/lib/g_buffer_texels.wgsl reads. With EVERY_SAMPLE each sample is lit
+//      on its own; without, and with several samples, all of a pixel as the first.
 // Out: radiance to add.
 // Follows Deering et al. 1988, "The Triangle Processor and Normal Vector Shader", section 4.
 #import lightbench::scene
 #import lightbench::surface
 #import lightbench::lighting
-#import lightbench::g_buffer
-
-#ifdef DEPTH_TARGET
-// A pass that writes stencil can't read the depth in the same texture, but a copy of it.
-@group(1) @binding(0) var depth: texture_2d<f32>;
-#else
-@group(1) @binding(0) var depth: texture_depth_2d;
-#endif
-@group(1) @binding(1) var g_albedo: texture_2d<f32>;
-@group(1) @binding(2) var g_normal: texture_2d<u32>;
-@group(1) @binding(3) var g_specular: texture_2d<u32>;
-@group(1) @binding(4) var g_model: texture_2d<u32>;
+#import lightbench::g_buffer_texels
 
 @fragment
 fn fragment_main(
     @builtin(position) pixel: vec4f,
+#ifdef EVERY_SAMPLE
+    @builtin(sample_index) sample: u32,
+#endif
     @location(0) @interpolate(flat) light: u32,
 ) -> @location(0) vec4f {
-    let texel = vec2i(pixel.xy);
-#ifdef DEPTH_TARGET
-    let texel_depth = textureLoad(depth, texel, 0).r;
-#else
-    let texel_depth = textureLoad(depth, texel, 0);
+#ifndef EVERY_SAMPLE
+    let sample = 0u;
 #endif
-    if texel_depth == 0.0 {
+    let texel = vec2u(pixel.xy);
+    if g_buffer_texels::depth_at(texel, sample) == 0.0 {
         // The far plane: nothing was drawn here, so there is nothing to light.
         return vec4f(0.0);
     }
-    let resolution = vec2f(textureDimensions(depth));
-    let fragment = g_buffer::unpack(
-        scene::position_from_depth(pixel.xy, resolution, texel_depth),
-        textureLoad(g_albedo, texel, 0),
-        textureLoad(g_normal, texel, 0).xy,
-        textureLoad(g_specular, texel, 0),
-        textureLoad(g_model, texel, 0).r,
-    );
+    let fragment = g_buffer_texels::surface_at(texel, sample);
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - fragment.position);
     let radiance = lighting::evaluate_light(scene::lights[light], fragment, to_viewer);
     return vec4f(radiance, 0.0);

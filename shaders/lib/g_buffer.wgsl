@@ -5,7 +5,7 @@
 //      where their highlights have a colour:
 //
 //      g_albedo    rgba8unorm   roots of the base colour; gloss
-//      g_normal    rg16uint     octahedral
+//      g_normal    rg16uint     octahedral, or with BEST_FIT_NORMALS or PLAIN_NORMALS three bytes
 //      g_specular  rgba8uint    roots of the specular colour; gloss across the tangent (Ward)
 //      g_model     r8uint       reflection model; for Ward the tangent too
 //
@@ -33,7 +33,7 @@ struct GBuffer {
 
 // The texels of a surface.
 fn pack(s: surface::Surface) -> GBuffer {
-    let normal = normals::encode_octahedral(s.normal);
+    let normal = pack_normal(s.normal);
     let gloss = pack_gloss(s.model, s.lobe);
     return GBuffer(
         vec4f(s.emissive, 1.0),
@@ -64,7 +64,7 @@ fn unpack(
 fn unpack_thin(position: vec3f, normal: vec2u, gloss: vec2f, model: u32) -> surface::Surface {
     var s: surface::Surface;
     s.position = position;
-    s.normal = normals::decode_octahedral(normal);
+    s.normal = unpack_normal(normal);
     s.opacity = 1.0;
 #ifdef REFLECTION_MODELS
     s.model = min(model, brdf::WARD);
@@ -74,6 +74,32 @@ fn unpack_thin(position: vec3f, normal: vec2u, gloss: vec2f, model: u32) -> surf
     s.lobe = vec2f(exp2(10.5 * gloss.x));
 #endif
     return s;
+}
+
+// --- Normal ---------------------------------------------------------------------------------------
+
+fn pack_normal(normal: vec3f) -> vec2u {
+#ifdef PLAIN_NORMALS
+    return normals::encode_plain(normal);
+#else
+#ifdef BEST_FIT_NORMALS
+    return normals::encode_best_fit(normal);
+#else
+    return normals::encode_octahedral(normal);
+#endif
+#endif
+}
+
+fn unpack_normal(normal: vec2u) -> vec3f {
+#ifdef PLAIN_NORMALS
+    return normals::decode_plain(normal);
+#else
+#ifdef BEST_FIT_NORMALS
+    return normals::decode_best_fit(normal);
+#else
+    return normals::decode_octahedral(normal);
+#endif
+#endif
 }
 
 // --- Gloss ----------------------------------------------------------------------------------------
@@ -102,7 +128,7 @@ const STEPS: f32 = 252.0;
 fn pack_model(s: surface::Surface, normal: vec2u) -> u32 {
 #ifdef REFLECTION_MODELS
     if s.model == brdf::WARD {
-        let kept = normals::decode_octahedral(normal);
+        let kept = unpack_normal(normal);
         let zero = surface::surface_tangent(vec3f(0.0), kept);
         let angle = atan2(dot(s.tangent, cross(kept, zero)), dot(s.tangent, zero));
         let step = round(fract(angle / brdf::PI) * STEPS);

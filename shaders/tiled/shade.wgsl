@@ -1,6 +1,7 @@
 // Tiled deferred shading, second pass: one workgroup finds the lights of its tile and shades it.
 //
-// In:  depth and G-buffer; the spheres around the lights. TILE is the side of a tile in pixels.
+// In:  what shaders/lib/g_buffer_texels.wgsl reads, and emitted light; the spheres around the lights.
+//      TILE is the side of a tile in pixels.
 // Out: linear radiance of the tile's pixels; the number of lights of each tile, for display.
 // Lights are taken 1,024 at a time and shaded with before the next are looked for, so that no list can
 // be too long. Each pixel's sum stays in registers and is rounded once.
@@ -9,23 +10,18 @@
 #import lightbench::scene
 #import lightbench::surface
 #import lightbench::lighting
-#import lightbench::g_buffer
+#import lightbench::g_buffer_texels
 #import lightbench::culling
 #import lightbench::tile_lights
 
-@group(1) @binding(1) var depth: texture_depth_2d;
-@group(1) @binding(2) var emitted: texture_2d<f32>;
-@group(1) @binding(3) var g_albedo: texture_2d<f32>;
-@group(1) @binding(4) var g_normal: texture_2d<u32>;
-@group(1) @binding(5) var g_specular: texture_2d<u32>;
-@group(1) @binding(6) var g_model: texture_2d<u32>;
+@group(1) @binding(1) var emitted: texture_2d<f32>;
 #ifdef FULL_FLOAT
-@group(1) @binding(7) var hdr: texture_storage_2d<rgba32float, write>;
+@group(1) @binding(2) var hdr: texture_storage_2d<rgba32float, write>;
 #else
-@group(1) @binding(7) var hdr: texture_storage_2d<rgba16float, write>;
+@group(1) @binding(2) var hdr: texture_storage_2d<rgba16float, write>;
 #endif
-@group(1) @binding(8) var<storage, read_write> tile_totals: array<atomic<u32>>;
-@group(1) @binding(9) var tile_light_count: texture_storage_2d<r32uint, write>;
+@group(1) @binding(3) var<storage, read_write> tile_totals: array<atomic<u32>>;
+@group(1) @binding(4) var tile_light_count: texture_storage_2d<r32uint, write>;
 
 // Invocations along a side of the workgroup, and pixels along a side that each shades.
 const SIDE: u32 = 8u;
@@ -38,7 +34,7 @@ fn compute_main(
     @builtin(local_invocation_id) local: vec3u,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let size = textureDimensions(depth);
+    let size = textureDimensions(emitted);
     let corner = tile.xy * #{TILE}u;
 
     var depths: array<f32, OWN_PIXELS>;
@@ -47,7 +43,7 @@ fn compute_main(
         let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
         depths[p] = 0.0;
         if all(texel < size) {
-            depths[p] = textureLoad(depth, texel, 0);
+            depths[p] = g_buffer_texels::depth_at(texel, 0u);
             tile_lights::add_depth(depths[p]);
         }
     }
@@ -62,14 +58,7 @@ fn compute_main(
     var radiance: array<vec3f, OWN_PIXELS>;
     for (var p = 0u; p < OWN_PIXELS; p++) {
         let texel = corner + local.xy + vec2u(p % PIXELS, p / PIXELS) * SIDE;
-        let pixel = vec2f(texel) + 0.5;
-        surfaces[p] = g_buffer::unpack(
-            scene::position_from_depth(pixel, vec2f(size), depths[p]),
-            textureLoad(g_albedo, texel, 0),
-            textureLoad(g_normal, texel, 0).xy,
-            textureLoad(g_specular, texel, 0),
-            textureLoad(g_model, texel, 0).r,
-        );
+        surfaces[p] = g_buffer_texels::surface_at(texel, 0u);
         radiance[p] = textureLoad(emitted, texel, 0).rgb;
     }
 

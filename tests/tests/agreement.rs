@@ -394,13 +394,13 @@ fn a_wrong_normal_a_lost_light_and_a_shifted_pixel_are_caught() {
         ),
         (
             "shaders/deferred_shading/light.wgsl",
-            "if texel_depth == 0.0 {",
-            "if texel_depth == 0.0 || light == 3u {",
+            "sample) == 0.0 {",
+            "sample) == 0.0 || light == 3u {",
         ),
         (
             "shaders/deferred_shading/light.wgsl",
-            "let texel = vec2i(pixel.xy);",
-            "let texel = vec2i(pixel.xy) + vec2i(1, 0);",
+            "let texel = vec2u(pixel.xy);",
+            "let texel = vec2u(pixel.xy) + vec2u(1u, 0u);",
         ),
     ];
     let mut studio = Studio::new("many_lights", &settings(&["lights=64"]));
