@@ -1,7 +1,7 @@
 // What a visibility buffer holds of a pixel: which triangle of which object it shows.
 //
 // In:  an object's row and the number of a triangle of its mesh; or a texel.
-// Out: the other. Two whole numbers of 32 bits, or with COMPACT one, of which each gets half.
+// Out: the other. Two whole numbers, of 32 bits each or with COMPACT of 16.
 // A texel of zeros shows nothing. With COMPACT, that is also what objects beyond 65,535 and
 // triangles beyond 65,536 leave.
 // Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred
@@ -17,16 +17,12 @@ struct Visible {
 fn encode(instance: u32, triangle: u32) -> vec2u {
 #ifdef COMPACT
     let fits = instance < 0xffffu && triangle <= 0xffffu;
-    return vec2u(select(0u, (instance + 1u) << 16u | triangle, fits), 0u);
+    return select(vec2u(0u), vec2u(instance + 1u, triangle), fits);
 #else
     return vec2u(instance + 1u, triangle);
 #endif
 }
 
 fn decode(texel: vec2u) -> Visible {
-#ifdef COMPACT
-    return Visible((texel.x >> 16u) - 1u, texel.x & 0xffffu, texel.x == 0u);
-#else
     return Visible(texel.x - 1u, texel.y, texel.x == 0u);
-#endif
 }

@@ -4,7 +4,9 @@
 // In:  the visibility buffer; meshes; the lists of clusters. TILE and SLICES as in
 //      shaders/lib/clusters.wgsl. With COMPACT also depth.
 // Out: linear radiance, black where there is nothing. With COMPACT 1 where there is something
-//      without a number, which is black too.
+//      without a number, which is black too. With MULTISAMPLED each pixel has four samples, which
+//      are written to a square of four texels: compute shaders can't write samples. What several
+//      samples show is shaded once, at the middle of the pixel.
 // It is a compute pass since meshes, lists and scene take eight storage buffers, all that every
 // adapter binds, and fragment stages see more of the scene than compute shaders do.
 // Follows Burns and Hunt 2013, "The Visibility Buffer: A Cache-Friendly Approach to Deferred
@@ -18,18 +20,34 @@
 #import lightbench::visibility
 #import lightbench::clusters
 
-@group(1) @binding(3) var ids: texture_2d<u32>;
-#ifdef FULL_FLOAT
-@group(1) @binding(4) var hdr: texture_storage_2d<rgba32float, write>;
+#ifdef MULTISAMPLED
+@group(1) @binding(3) var ids: texture_multisampled_2d<u32>;
 #else
-@group(1) @binding(4) var hdr: texture_storage_2d<rgba16float, write>;
+@group(1) @binding(3) var ids: texture_2d<u32>;
+#endif
+#ifdef FULL_FLOAT
+@group(1) @binding(4) var shaded: texture_storage_2d<rgba32float, write>;
+#else
+@group(1) @binding(4) var shaded: texture_storage_2d<rgba16float, write>;
 #endif
 @group(1) @binding(5) var<storage, read> cluster_lists: array<vec2u>;
 @group(1) @binding(6) var<storage, read> cluster_lights: array<u32>;
 #ifdef COMPACT
+#ifdef MULTISAMPLED
+@group(1) @binding(7) var depth: texture_depth_multisampled_2d;
+#else
 @group(1) @binding(7) var depth: texture_depth_2d;
+#endif
 @group(1) @binding(8) var without_number: texture_storage_2d<r32float, write>;
 #endif
+
+#ifdef MULTISAMPLED
+// Texels along a side of a pixel's square.
+const SIDE: u32 = 2u;
+#else
+const SIDE: u32 = 1u;
+#endif
+const SAMPLES: u32 = SIDE * SIDE;
 
 // The point of an object's triangle that a pixel shows.
 fn point_at(pixel: vec2f, visible: visibility::Visible) -> surface::Point {
@@ -75,21 +93,8 @@ fn point_at(pixel: vec2f, visible: visibility::Visible) -> surface::Point {
     );
 }
 
-@compute @workgroup_size(8, 8)
-fn compute_main(@builtin(global_invocation_id) thread: vec3u) {
-    let texel = thread.xy;
-    if any(texel >= textureDimensions(ids)) {
-        return;
-    }
-    let visible = visibility::decode(textureLoad(ids, texel, 0).xy);
-#ifdef COMPACT
-    let lost = visible.is_nothing && textureLoad(depth, texel, 0) > 0.0;
-    textureStore(without_number, texel, vec4f(select(0.0, 1.0, lost)));
-#endif
-    if visible.is_nothing {
-        textureStore(hdr, texel, vec4f(0.0));
-        return;
-    }
+// What a triangle sends to the viewer at the middle of a pixel.
+fn shade(texel: vec2u, visible: visibility::Visible) -> vec3f {
     let pixel = vec2f(texel) + 0.5;
     let point = surface::point_surface(point_at(pixel, visible));
     let to_viewer = surface::safe_normalize(scene::frame.camera_position - point.position);
@@ -101,5 +106,39 @@ fn compute_main(@builtin(global_invocation_id) thread: vec3u) {
         let light = scene::lights[cluster_lights[i]];
         radiance += lighting::evaluate_light(light, point, to_viewer);
     }
-    textureStore(hdr, texel, vec4f(radiance, 1.0));
+    return radiance;
+}
+
+@compute @workgroup_size(8, 8)
+fn compute_main(@builtin(global_invocation_id) thread: vec3u) {
+    let texel = thread.xy;
+    if any(texel >= textureDimensions(ids)) {
+        return;
+    }
+    var seen: array<vec2u, SAMPLES>;
+    var colors: array<vec4f, SAMPLES>;
+    var lost = false;
+    for (var sample = 0u; sample < SAMPLES; sample++) {
+        seen[sample] = textureLoad(ids, texel, sample).xy;
+        var same = 0u;
+        while any(seen[same] != seen[sample]) {
+            same++;
+        }
+        let visible = visibility::decode(seen[sample]);
+        if same < sample {
+            colors[sample] = colors[same];
+        } else if visible.is_nothing {
+            colors[sample] = vec4f(0.0);
+        } else {
+            colors[sample] = vec4f(shade(texel, visible), 1.0);
+        }
+#ifdef COMPACT
+        lost = lost || visible.is_nothing && textureLoad(depth, texel, sample) > 0.0;
+#endif
+        let corner = vec2u(sample % SIDE, sample / SIDE);
+        textureStore(shaded, texel * SIDE + corner, colors[sample]);
+    }
+#ifdef COMPACT
+    textureStore(without_number, texel, vec4f(select(0.0, 1.0, lost)));
+#endif
 }

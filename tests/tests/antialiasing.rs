@@ -17,6 +17,8 @@ const HALF: f32 = 2.0 / 1024.0;
 /// What the G-buffer's rounding does to the light of a whole picture: see `agreement`.
 const QUANTISATION: f64 = 0.0045;
 
+/// What gradients that are not differences over two pixels do to textures, in the mean: see `agreement`.
+const GRADIENTS: f64 = 0.001;
 /// The share of the pixels in which two surfaces touch, where multi-pass adds twice.
 const TOUCHING: f64 = 3e-3;
 /// The share of the pixels that show a triangle's light beyond its edge, where it has other lights.
@@ -112,6 +114,9 @@ fn pipelines_with_four_samples_draw_the_same_edges() {
             println!("{scene} {name:24} {beyond:.5} of the pixels differ, mean {mean:.2e}");
             if name == "inferred_lighting" {
                 assert!(mean <= WITHOUT_TEXEL, "{scene} {name}: {mean}");
+            } else if name == "visibility_buffer" {
+                // It finds the gradients of textures in another way: see `agreement`.
+                assert!(mean <= GRADIENTS, "{scene} {name}: {mean}");
             } else if rounds(name) {
                 assert!(mean <= QUANTISATION, "{scene} {name}: {mean}");
             } else {
