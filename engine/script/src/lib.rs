@@ -12,6 +12,7 @@
 //! type of the program.
 #![warn(missing_docs)]
 
+pub mod abilities;
 mod api;
 mod color;
 mod compile;

@@ -1,10 +1,12 @@
-//! The reference of pipeline files, of the shader library and of experiments, as Markdown.
+//! The reference of pipeline files, of the shipped pipelines, of the shader library and of
+//! experiments, as Markdown.
 //!
 //! The pages are made from what the program itself knows: the functions that are registered with
 //! their texts, what these functions say when they are called wrongly (`probe`), and the files of
 //! the shader library. `lightbench docs` prints them; copies lie in the crate's `docs/` folder, and
 //! a test holds them to what is made now.
 
+mod abilities;
 mod experiments;
 mod functions;
 mod parts;
@@ -14,6 +16,7 @@ mod shaders;
 #[cfg(test)]
 mod tests;
 
+pub use abilities::abilities_page as abilities;
 pub use experiments::experiments;
 pub use pipelines::pipelines;
 pub use shaders::shaders;

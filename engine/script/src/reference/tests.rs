@@ -5,6 +5,7 @@ use std::path::Path;
 
 use lightbench_assets::files::Files;
 
+use super::abilities::{HEADINGS, header};
 use super::functions::functions;
 use super::pipelines::{EXAMPLES, KINDS};
 use super::probe::{Probe, default_said};
@@ -40,6 +41,11 @@ fn the_copies_are_what_is_made_now() {
         "pipelines.md",
         &pipelines(&files).unwrap(),
         "lightbench docs pipelines",
+    );
+    same(
+        "abilities.md",
+        &abilities(&files).unwrap(),
+        "lightbench docs abilities",
     );
     same(
         "experiments.md",
@@ -291,4 +297,25 @@ fn modules_are_read_as_they_are_written() {
     let all: Vec<&str> = page.lines().filter(|line| !line.is_empty()).collect();
     let empty = |pair: &&[&str]| pair[0].starts_with("#if") && pair[1].starts_with("#endif");
     assert!(!all.windows(2).any(|pair| empty(&pair)));
+}
+
+#[test]
+fn every_shipped_pipeline_says_what_it_trades_needs_and_is_for() {
+    let files = Files::shipped();
+    for pipeline in crate::list_pipelines(&files).unwrap() {
+        let script = files.read_text(&pipeline.path).unwrap();
+        let header = header(&script);
+        let found: Vec<&str> = header
+            .headings
+            .iter()
+            .map(|(heading, _)| *heading)
+            .collect();
+        assert_eq!(found, HEADINGS, "{}", pipeline.path);
+        assert!(!header.paragraphs.is_empty(), "{}", pipeline.path);
+        for (heading, said) in &header.headings {
+            assert!(said.ends_with('.'), "{} {heading}: {said}", pipeline.path);
+        }
+        let memory = &header.headings[1].1;
+        assert!(memory.contains("bytes a pixel"), "{}", pipeline.path);
+    }
 }
