@@ -19,6 +19,9 @@ const RESULT: &str = "return vec4f(radiance";
 
 /// After how many reloads memory is first looked at: caches are full by then.
 const SETTLED: usize = 50;
+/// Memory goes up and down by some per cent with what a compilation needs for a moment, so it is looked
+/// at after each of so many reloads, and the median is taken.
+const LOOKS: usize = 20;
 
 /// What was measured. Times are from the save to the end of the first frame on the device.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,9 +34,8 @@ pub struct ReloadTimes {
     pub new_ms: Vec<f64>,
     /// Milliseconds of each save of the text before that one, again.
     pub seen_ms: Vec<f64>,
-    /// Bytes of memory after 50 reloads and after all; `None` where there were fewer, or the
-    /// system does not tell.
-    pub memory: Option<(u64, u64)>,
+    /// Bytes of memory after each pair of saves; empty where the system does not tell.
+    pub memory: Vec<f64>,
 }
 
 impl std::fmt::Display for ReloadTimes {
@@ -57,17 +59,32 @@ impl std::fmt::Display for ReloadTimes {
                 percentile(ms, 1.0),
             )?;
         }
-        match self.memory {
+        match self.settled_memory() {
             Some((settled, end)) => write!(
                 f,
-                "  memory: {:.1} MiB after {SETTLED} reloads, {:.1} MiB after {}, {:+.1} %",
-                settled as f64 / f64::from(1 << 20),
-                end as f64 / f64::from(1 << 20),
+                "  memory: {:.1} MiB after {SETTLED} reloads, {:.1} MiB after {}, {:+.1} %; medians \
+                 of {LOOKS} reloads",
+                settled / f64::from(1 << 20),
+                end / f64::from(1 << 20),
                 self.new_ms.len() + self.seen_ms.len(),
-                (end as f64 / settled as f64 - 1.0) * 100.0,
+                (end / settled - 1.0) * 100.0,
             ),
-            None => write!(f, "  memory: looked at only after {SETTLED} reloads"),
+            None => write!(
+                f,
+                "  memory: looked at only after {} reloads",
+                SETTLED + LOOKS
+            ),
         }
+    }
+}
+
+impl ReloadTimes {
+    /// Bytes after the first [`SETTLED`] reloads and after all, if there were enough of them.
+    fn settled_memory(&self) -> Option<(f64, f64)> {
+        let looks = LOOKS / 2;
+        let first = self.memory.get(SETTLED / 2..SETTLED / 2 + looks)?;
+        let last = self.memory.last_chunk::<{ LOOKS / 2 }>()?;
+        Some((percentile(first, 0.5), percentile(last, 0.5)))
     }
 }
 
@@ -99,9 +116,8 @@ pub fn reload(
         drawn: options.size,
         new_ms: Vec::with_capacity(edits),
         seen_ms: Vec::with_capacity(edits),
-        memory: None,
+        memory: Vec::with_capacity(edits),
     };
-    let mut settled = None;
     for edit in 1..=edits {
         times
             .new_ms
@@ -109,13 +125,12 @@ pub fn reload(
         times
             .seen_ms
             .push(save(&mut session, &path, &variant(edit - 1))?);
-        if settled.is_none() && 2 * edit >= SETTLED {
-            settled = resident_bytes();
-        }
+        times
+            .memory
+            .extend(resident_bytes().map(|bytes| bytes as f64));
         on_edit(edit);
     }
     times.drawn = session.workbench.drawn_size().unwrap_or(options.size);
-    times.memory = settled.zip(resident_bytes());
     Ok(times)
 }
 
