@@ -15,6 +15,13 @@ pub fn relative_difference(a: &TargetImage, b: &TargetImage) -> f32 {
         .fold(0.0, f32::max)
 }
 
+/// The largest difference of two pictures.
+pub fn largest_difference(a: &TargetImage, b: &TargetImage) -> f32 {
+    let pairs = a.texels.iter().zip(&b.texels);
+    let channels = pairs.flat_map(|(a, b)| (0..3).map(|channel| (a[channel] - b[channel]).abs()));
+    channels.fold(0.0, f32::max)
+}
+
 /// The share of the pixels that differ by more than a bound, relative to the brighter value.
 pub fn share_beyond(a: &TargetImage, b: &TargetImage, bound: f32) -> f64 {
     let differs = |(a, b): &(&[f32; 4], &[f32; 4])| {

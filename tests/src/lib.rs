@@ -5,7 +5,13 @@
 // A test stops where something is wrong; there is nobody to hand an error to.
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc)]
 
+pub mod buffers;
 pub mod compare;
+pub mod flat;
+pub mod grid;
+pub mod lists;
+pub mod panes;
+pub mod pixels;
 pub mod workshop;
 
 pub use workshop::Workshop;
@@ -180,6 +186,19 @@ pub fn project(files: &[(&str, &str)]) -> (tempfile::TempDir, Files) {
     }
     let files = Files::with_project(folder.path()).unwrap();
     (folder, files)
+}
+
+/// A mistake: in a shipped file, one text in place of another.
+pub type Mistake<'a> = (&'a str, &'a str, &'a str);
+
+/// A project in which somebody made a mistake, with other files beside it.
+pub fn project_with_mistake(
+    files: &[(&str, &str)],
+    (path, from, to): Mistake<'_>,
+) -> (tempfile::TempDir, Files) {
+    let text = Files::shipped().read_text(path).unwrap();
+    assert!(text.contains(from), "{path} has no `{from}`");
+    project(&[files, &[(path, &text.replace(from, to))]].concat())
 }
 
 /// The scene of [`hard_shapes`].

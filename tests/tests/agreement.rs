@@ -9,7 +9,7 @@ use lightbench::script::{list_pipelines, load_pipeline};
 use lightbench_tests::compare::{
     flip_mean, mean_difference, order_bound, relative_difference, share_beyond,
 };
-use lightbench_tests::{Studio, gpu, settings};
+use lightbench_tests::{Studio, gpu, project_with_mistake, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 
@@ -409,13 +409,8 @@ fn a_wrong_normal_a_lost_light_and_a_shifted_pixel_are_caught() {
     let right = mean_difference(&forward, &studio.hdr("deferred_shading", &full, SIZE));
     assert!(right <= QUANTISATION);
     for (path, from, to) in mistakes {
-        let text = Files::shipped().read_text(path).unwrap();
-        assert!(text.contains(from), "{path} has no `{from}`");
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join(path);
-        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
-        std::fs::write(&file, text.replace(from, to)).unwrap();
-        studio.files = Files::with_project(folder.path()).unwrap();
+        let (_folder, files) = project_with_mistake(&[], (path, from, to));
+        studio.files = files;
         let wrong = mean_difference(&forward, &studio.hdr("deferred_shading", &full, SIZE));
         assert!(wrong > QUANTISATION, "`{to}` went unnoticed: {wrong}");
     }

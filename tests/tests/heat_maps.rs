@@ -1,10 +1,10 @@
 //! Heat maps of every pipeline, against counts that are made here.
 #![allow(clippy::unwrap_used)]
 
-use glam::{DMat4, DVec4};
 use lightbench::render::heat_map::HeatMap;
 use lightbench::render::{Renderer, TargetImage};
 use lightbench::script::{Settings, list_pipelines, load_pipeline};
+use lightbench_tests::pixels::{Pixels, depth_inside};
 use lightbench_tests::{Studio, Workshop, settings};
 
 const SIZE: (u32, u32) = (120, 72);
@@ -33,37 +33,21 @@ fn counts(studio: &mut Studio, pipeline: &str, map: &str, more: &[&str]) -> Targ
 /// For each pixel the fewest and the most lights that reach what it shows, as rounding has it; the
 /// sky shows nothing.
 fn reaching(renderer: &Renderer, depth: &TargetImage) -> Vec<(u32, u32)> {
-    let data = renderer.frame().data;
-    let to_world: DMat4 = (data.projection.as_dmat4() * data.view.as_dmat4()).inverse();
-    let pixels = depth.texels.iter().enumerate().map(|(index, texel)| {
+    let pixels = Pixels::of(renderer);
+    let counts = depth.texels.iter().enumerate().map(|(index, texel)| {
         if texel[0] == 0.0 {
             return (0, 0);
         }
-        let (x, y) = (index as u32 % depth.width, index as u32 / depth.width);
-        let x = (f64::from(x) + 0.5) / f64::from(depth.width) * 2.0 - 1.0;
-        let y = 1.0 - (f64::from(y) + 0.5) / f64::from(depth.height) * 2.0;
-        let world = to_world * DVec4::new(x, y, f64::from(texel[0]), 1.0);
-        let position = world.truncate() / world.w;
+        let position = pixels.at(index, texel[0]);
         let (mut least, mut most) = (0, 0);
         for light in renderer.lights().iter() {
-            let offset = light.position.as_dvec3() - position;
-            let range = f64::from(light.range);
-            let inside = match light.kind {
-                0 => (range - offset.length()) / range,
-                1 => {
-                    let cosine = -light.direction.as_dvec3().dot(offset.normalize());
-                    let edge = cosine * f64::from(light.angle_scale);
-                    let edge = edge + f64::from(light.angle_offset);
-                    edge.min((range - offset.length()) / range)
-                }
-                _ => 1.0,
-            };
+            let inside = depth_inside(light, position);
             least += u32::from(inside > 1e-4);
             most += u32::from(inside > -1e-4);
         }
         (least, most)
     });
-    pixels.collect()
+    counts.collect()
 }
 
 #[test]

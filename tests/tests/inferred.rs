@@ -6,7 +6,8 @@ use std::f32::consts::PI;
 
 use lightbench::render::TargetImage;
 use lightbench_tests::compare::mean_difference;
-use lightbench_tests::{Counts, Studio, gpu, hard_shapes, project, settings};
+use lightbench_tests::panes::{composite, middle, panes};
+use lightbench_tests::{Counts, Studio, gpu, hard_shapes, project, project_with_mistake, settings};
 
 const PIPELINE: &str = "inferred_lighting";
 const FULL: &str = "accumulation=rgba32float";
@@ -149,78 +150,9 @@ fn full_size_buffers_give_the_picture_of_deferred_lighting() {
     }
 }
 
-/// Panes that are turned by different angles, one behind the other, before a wall; the sun shines
-/// along the view. Each is so large that it fills the middle of the picture.
-fn panes(count: usize) -> String {
-    let mut scene = String::from(
-        "directional_light(\"sun\").at(0, 0, 1).look_at(0, 0, 0).color(1, 1, 1).intensity(3);
-        camera(\"eye\").at(0.01, 0.02, 9).look_at(0.01, 0.02, 0).fov(30).near(0.1).far(50);
-        spawn(\"wall\").mesh(faces([[
-            vec3(-9, -9, -9), vec3(9, -9, -9), vec3(9, 9, -9), vec3(-9, 9, -9),
-        ]])).material(material(\"wall\").color(rgb(0.2, 0.6, 0.4)).specular(0));",
-    );
-    for pane in 0..count {
-        let (x, z) = (2.0 * angle(pane).cos(), -2.0 * angle(pane).sin());
-        let middle = 3.0 - 2.5 * pane as f64;
-        let [r, g, b] = color(pane);
-        scene += &format!(
-            "spawn(\"pane {pane}\").mesh(faces([[
-                vec3({}, -2, {}), vec3({x}, -2, {}), vec3({x}, 2, {}), vec3({}, 2, {}),
-            ]])).material(material(\"glass {pane}\").color(rgb({r}, {g}, {b})).specular(0)
-                .opacity({}));",
-            -x,
-            middle - z,
-            middle + z,
-            middle + z,
-            -x,
-            middle - z,
-            opacity(pane),
-        );
-    }
-    scene
-}
-
-fn angle(pane: usize) -> f64 {
-    [0.5, -0.2, 0.35, -0.4][pane]
-}
-
-fn color(pane: usize) -> [f64; 3] {
-    [
-        [0.9, 0.1, 0.1],
-        [0.1, 0.8, 0.3],
-        [0.2, 0.2, 0.9],
-        [0.7, 0.7, 0.1],
-    ][pane]
-}
-
-fn opacity(pane: usize) -> f64 {
-    [0.3, 0.5, 0.4, 0.6][pane]
-}
-
-/// What the middle of the picture shows: the panes over the wall, farthest first.
-fn composite(count: usize) -> [f64; 3] {
-    let lit = |color: f64, cosine: f64| color / std::f64::consts::PI * 3.0 * cosine;
-    let mut seen = [0.2, 0.6, 0.4].map(|wall| lit(wall, 1.0));
-    for pane in (0..count).rev() {
-        for (seen, color) in seen.iter_mut().zip(color(pane)) {
-            *seen += (lit(color, angle(pane).cos()) - *seen) * opacity(pane);
-        }
-    }
-    seen
-}
-
-/// The middle ninth of a picture.
-fn middle(image: &TargetImage) -> impl Iterator<Item = &[f32; 4]> {
-    let (width, height) = (image.width as usize, image.height as usize);
-    let rows = image.texels.chunks_exact(width);
-    rows.skip(height / 3)
-        .take(height / 3)
-        .flat_map(move |row| &row[width / 3..2 * width / 3])
-}
-
 #[test]
 fn three_stacked_panes_recover_the_light_of_each_layer() {
-    let mut studio = studio(&panes(3));
+    let mut studio = studio(&panes(&[0, 1, 2]));
     let expected = composite(3);
     for scale in ["scale=1", "scale=0.5", "scale=0.3"] {
         for surfaces in ["surfaces=depth_and_groups", "surfaces=object_id"] {
@@ -239,7 +171,7 @@ fn three_stacked_panes_recover_the_light_of_each_layer() {
 
 #[test]
 fn a_fourth_pane_loses_its_light_and_is_counted() {
-    let mut studio = studio(&panes(4));
+    let mut studio = studio(&panes(&[0, 1, 2, 3]));
     let (found, acceptance, counts) = draw(&mut studio, &[FULL]);
     // It shares its layer, a quarter of the texels, with the nearest one: of these it loses all
     // that both cover, at least those in the middle of the picture.
@@ -321,11 +253,7 @@ fn mistakes_of_the_filter_are_caught() {
         ("texels_per_pixel - 0.5 -", "texels_per_pixel -"),
         ("side == vec2i(1)", "side == vec2i(0)"),
     ] {
-        let text = lightbench::assets::files::Files::shipped()
-            .read_text(shader)
-            .unwrap();
-        assert!(text.contains(from), "{shader} has no `{from}`");
-        let (_folder, files) = project(&[(shader, &text.replace(from, to))]);
+        let (_folder, files) = project_with_mistake(&[], (shader, from, to));
         // A slope, so that where a texel lies matters to its depth.
         let mut studio = Studio::new("many_lights", &settings(&["lights=16"]));
         let strict = [FULL, "scale=0.5", "depth_tolerance=0.001"];

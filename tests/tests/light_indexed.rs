@@ -1,15 +1,13 @@
 //! Light indexing: channels hold one light each, and every pixel that lost a light says so.
 #![allow(clippy::unwrap_used)]
 
-use glam::{DMat4, DVec3, DVec4};
-use lightbench::assets::files::Files;
 use lightbench::render::{Pipeline, Renderer, TargetImage};
 use lightbench::script::Settings;
-use lightbench_tests::{Studio, project, settings};
+use lightbench_tests::pixels::{Pixels, depth_inside};
+use lightbench_tests::{Studio, project, project_with_mistake, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 const PIPELINES: [&str; 2] = ["light_indexed_forward", "light_indexed_deferred"];
-const POINT: u32 = 0;
 const SPOT: u32 = 1;
 
 // --- What was lost is marked ---------------------------------------------------------------------
@@ -33,32 +31,24 @@ enum At {
 
 impl Exact {
     fn count(renderer: &Renderer, depth: &TargetImage, at: At) -> Self {
-        let data = renderer.frame().data;
-        let to_world = (data.projection.as_dmat4() * data.view.as_dmat4()).inverse();
-        let eye = data.camera_position.as_dvec3();
+        let pixels = Pixels::of(renderer);
         let mut exact = Self {
             least: Vec::new(),
             most: Vec::new(),
         };
         for (index, texel) in depth.texels.iter().enumerate() {
-            let position = position(&to_world, depth, index, f64::from(texel[0]));
-            let far = crate::position(&to_world, depth, index, 0.5);
+            let position = pixels.at(index, texel[0]);
+            let sight = (pixels.at(index, 0.5) - pixels.eye).normalize();
             let (mut least, mut most) = (0, 0);
             let lights = renderer.lights().iter().filter(|light| light.kind <= SPOT);
             for light in lights {
-                let offset = light.position.as_dvec3() - position;
-                let range = f64::from(light.range);
-                let sight = (far - eye).normalize();
-                let away = match at {
-                    At::Depth => offset.length(),
-                    At::Any => sight.cross(light.position.as_dvec3() - eye).length(),
+                let inside = match at {
+                    At::Depth => depth_inside(light, position),
+                    At::Any => {
+                        let away = sight.cross(light.position.as_dvec3() - pixels.eye);
+                        1.0 - away.length() / f64::from(light.range)
+                    }
                 };
-                let mut inside = (range - away) / range;
-                if light.kind != POINT && at == At::Depth {
-                    let along = -light.direction.as_dvec3().dot(offset.normalize());
-                    let edge = along * f64::from(light.angle_scale);
-                    inside = inside.min(edge + f64::from(light.angle_offset));
-                }
                 let nothing = at == At::Depth && texel[0] == 0.0;
                 least += u32::from(inside > 1e-4 && !nothing);
                 most += u32::from(inside > -1e-4 && !nothing);
@@ -92,14 +82,6 @@ impl Exact {
         println!("{what}: {found} of {all} pixels have more than {capacity}, {unsure} unsure");
         found
     }
-}
-
-fn position(to_world: &DMat4, image: &TargetImage, index: usize, depth: f64) -> DVec3 {
-    let (x, y) = (index as u32 % image.width, index as u32 / image.width);
-    let ndc_x = (f64::from(x) + 0.5) / f64::from(image.width) * 2.0 - 1.0;
-    let ndc_y = 1.0 - (f64::from(y) + 0.5) / f64::from(image.height) * 2.0;
-    let world = *to_world * DVec4::new(ndc_x, ndc_y, depth, 1.0);
-    world.truncate() / world.w
 }
 
 fn read(studio: &Studio, pipeline: &Pipeline, name: &str) -> TargetImage {
@@ -191,9 +173,7 @@ fn mistakes_in_numbers_counts_and_reach_are_caught() {
             "out.count = 2.0",
         ),
     ] {
-        let text = Files::shipped().read_text(path).unwrap();
-        assert!(text.contains(from), "{path} has no `{from}`");
-        let (_folder, files) = project(&[(path, &text.replace(from, to))]);
+        let (_folder, files) = project_with_mistake(&[], (path, from, to));
         studio.files = files;
         let found = faults(&mut studio);
         println!("`{to}`: {found} pixels");
@@ -309,10 +289,7 @@ fn a_channel_holds_one_light_and_it_reaches_the_pixel() {
             channels.push(read(&studio, &pipeline, "opaque_light_indices_more"));
         }
         let renderer = &studio.renderer;
-        let to_world = {
-            let data = renderer.frame().data;
-            (data.projection.as_dmat4() * data.view.as_dmat4()).inverse()
-        };
+        let pixels = Pixels::of(renderer);
         // In view or not, lights are numbered in the order of their rows; the sky has none.
         let mut of_numbers = vec![None];
         let numbered = counts.of("numbered_lights") as usize;
@@ -332,7 +309,7 @@ fn a_channel_holds_one_light_and_it_reaches_the_pixel() {
             if texel[0] == 0.0 {
                 continue;
             }
-            let position = position(&to_world, &depth, index, f64::from(texel[0]));
+            let position = pixels.at(index, texel[0]);
             for array in 0..capacity {
                 let reaching = arrays
                     .iter()

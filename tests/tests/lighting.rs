@@ -1,13 +1,14 @@
 //! The light at a pixel equals the light that the CPU computes for the surface at that pixel.
 #![allow(clippy::unwrap_used)]
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::DVec3;
 use lightbench::assets::Reflection;
 use lightbench::lab::reference::g_buffer::{self, Texel};
 use lightbench::lab::reference::{Surface, outgoing_radiance};
 use lightbench::render::TargetImage;
 use lightbench::render::gpu_data::LightData;
 use lightbench::world::Light;
+use lightbench_tests::pixels::Pixels;
 use lightbench_tests::{Numbers, Studio, settings};
 
 const SIZE: (u32, u32) = (320, 180);
@@ -22,8 +23,7 @@ struct Surfaces {
     model: TargetImage,
     /// What shines by itself: the frame without any light.
     emission: TargetImage,
-    to_world: DMat4,
-    eye: DVec3,
+    pixels: Pixels,
     lights: Vec<LightData>,
 }
 
@@ -34,7 +34,7 @@ impl Surfaces {
         let read = |name: &str| studio.renderer.read_target(&pipeline, name).unwrap();
         let [depth, albedo, normal, specular, model] =
             ["depth", "g_albedo", "g_normal", "g_specular", "g_model"].map(read);
-        let data = studio.renderer.frame().data;
+        let pixels = Pixels::of(&studio.renderer);
         let lights = studio.renderer.lights().to_vec();
 
         let dark = studio.scene.world.clone();
@@ -51,19 +51,14 @@ impl Surfaces {
             specular,
             model,
             emission,
-            to_world: (data.projection.as_dmat4() * data.view.as_dmat4()).inverse(),
-            eye: data.camera_position.as_dvec3(),
+            pixels,
             lights,
         }
     }
 
     /// The surface at a pixel, or none where the sky is.
     fn at(&self, index: usize) -> Option<Surface> {
-        let depth = f64::from(self.depth.texels[index][0]);
-        let (x, y) = (index % SIZE.0 as usize, index / SIZE.0 as usize);
-        let ndc_x = (x as f64 + 0.5) / f64::from(SIZE.0) * 2.0 - 1.0;
-        let ndc_y = 1.0 - (y as f64 + 0.5) / f64::from(SIZE.1) * 2.0;
-        let position = self.to_world * DVec4::new(ndc_x, ndc_y, depth, 1.0);
+        let depth = self.depth.texels[index][0];
         let [red, green, blue, _] = self.emission.texels[index].map(f64::from);
         let texel = Texel {
             albedo: self.albedo.texels[index].map(f64::from),
@@ -71,7 +66,7 @@ impl Surfaces {
             specular: self.specular.texels[index].map(|code| code as u8),
             model: self.model.texels[index][0] as u8,
         };
-        let position = position.truncate() / position.w;
+        let position = self.pixels.at(index, depth);
         let emissive = DVec3::new(red, green, blue);
         (depth > 0.0).then(|| g_buffer::unpack(&texel, position, emissive))
     }
@@ -97,7 +92,7 @@ impl Surfaces {
     }
 
     fn radiance(&self, surface: &Surface) -> DVec3 {
-        outgoing_radiance(&self.lights, surface, self.eye)
+        outgoing_radiance(&self.lights, surface, self.pixels.eye)
     }
 }
 
@@ -223,12 +218,14 @@ fn the_check_itself_notices_a_lost_light() {
     let surfaces = Surfaces::read(&mut studio);
     let (_, surface) = surfaces.sample()[0];
     let brightest = surfaces.lights.iter().enumerate().max_by(|(_, a), (_, b)| {
-        let light =
-            |light: &LightData| outgoing_radiance(&[*light], &surface, surfaces.eye).length();
+        let light = |light: &LightData| {
+            outgoing_radiance(&[*light], &surface, surfaces.pixels.eye).length()
+        };
         light(a).total_cmp(&light(b))
     });
     let mut lights = surfaces.lights.clone();
     lights.remove(brightest.unwrap().0);
-    let lost = surfaces.radiance(&surface) - outgoing_radiance(&lights, &surface, surfaces.eye);
+    let lost =
+        surfaces.radiance(&surface) - outgoing_radiance(&lights, &surface, surfaces.pixels.eye);
     assert!(lost.max_element() > 0.005 * surfaces.radiance(&surface).max_element());
 }

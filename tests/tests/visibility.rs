@@ -2,11 +2,12 @@
 //! that is found on it is the one that the rasteriser would have interpolated.
 #![allow(clippy::unwrap_used)]
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::DVec3;
 use lightbench::lab::reference::triangle::Triangle;
 use lightbench::script::{Settings, load_pipeline};
 use lightbench_tests::compare::mean_difference;
-use lightbench_tests::{Studio, gpu, hard_shapes, project, settings};
+use lightbench_tests::pixels::Pixels;
+use lightbench_tests::{Studio, gpu, hard_shapes, project, project_with_mistake, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 const FULL: &str = "accumulation=rgba32float";
@@ -86,14 +87,13 @@ fn pixels_name_the_triangle_that_they_show() {
     let (pipeline, _) = studio.draw_whole("visibility_buffer", &Settings::new(), SIZE);
     let read = |name| studio.renderer.read_target(&pipeline, name).unwrap();
     let (ids, depth) = (read("ids"), read("depth"));
-    let data = studio.renderer.frame().data;
-    let view = data.view.as_dmat4();
-    let to_world = (data.projection.as_dmat4() * view).inverse();
+    let pixels = Pixels::of(&studio.renderer);
+    let view = pixels.view;
     let world = &studio.scene.world;
     let renderers = world.columns::<lightbench::world::MeshRenderer>();
     let mut shown = 0;
     for (index, texel) in ids.texels.iter().enumerate() {
-        let reversed = f64::from(depth.texels[index][0]);
+        let reversed = depth.texels[index][0];
         assert_eq!(texel[0] == 0.0, reversed == 0.0, "pixel {index}");
         if texel[0] == 0.0 {
             continue;
@@ -116,7 +116,7 @@ fn pixels_name_the_triangle_that_they_show() {
             edge_b: b - a,
             edge_c: c - a,
         };
-        let point = position(&to_world, index, reversed);
+        let point = pixels.at(index, reversed);
         let hit = triangle.meet(view.transform_point3(point), DVec3::X);
         // The pixel's centre lies inside, but for the rasteriser's grid of 1/256 of a pixel.
         let slack = 0.02 + 1e-3 / (b - a).cross(c - a).length();
@@ -128,14 +128,6 @@ fn pixels_name_the_triangle_that_they_show() {
         shown += 1;
     }
     assert!(shown > 10_000, "{shown}");
-}
-
-fn position(to_world: &DMat4, index: usize, depth: f64) -> DVec3 {
-    let (x, y) = (index as u32 % SIZE.0, index as u32 / SIZE.0);
-    let ndc_x = (f64::from(x) + 0.5) / f64::from(SIZE.0) * 2.0 - 1.0;
-    let ndc_y = 1.0 - (f64::from(y) + 0.5) / f64::from(SIZE.1) * 2.0;
-    let world = *to_world * DVec4::new(ndc_x, ndc_y, depth, 1.0);
-    world.truncate() / world.w
 }
 
 #[test]
@@ -215,7 +207,6 @@ fn a_wrong_weight_and_a_wrong_derivative_are_caught() {
     let full = settings(&[FULL]);
     let forward = studio.hdr("clustered_forward", &full, SIZE);
     let right = mean_difference(&forward, &studio.hdr("visibility_buffer", &full, SIZE));
-    let files = lightbench::assets::files::Files::shipped();
     println!("right: {right:.2e}");
     for (path, from, to) in [
         ("shaders/visibility/shade.wgsl", "c.uv)", "b.uv)"),
@@ -246,10 +237,8 @@ fn a_wrong_weight_and_a_wrong_derivative_are_caught() {
         ),
         ("shaders/lib/mesh.wgsl", "instance.base_vertex +", "0u +"),
     ] {
-        let text = files.read_text(path).unwrap();
-        assert!(text.contains(from), "{path} has no `{from}`");
-        let (_folder, project) = project(&[(path, &text.replace(from, to))]);
-        studio.files = project;
+        let (_folder, files) = project_with_mistake(&[], (path, from, to));
+        studio.files = files;
         let wrong = mean_difference(&forward, &studio.hdr("visibility_buffer", &full, SIZE));
         println!("`{to}`: {wrong:.2e}");
         assert!(
