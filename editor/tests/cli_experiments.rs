@@ -282,6 +282,20 @@ fn the_shipped_experiments_run() {
     // picture for each.
     assert_eq!(ran.stdout.lines().count(), 3 + 8 + 2 + 8, "{}", ran.all());
     assert!(project.file("out/culling_light_volumes.png").exists());
+    let pictures_of_work = ["run", "see_the_work", "--set", "pictures=true"];
+    let ran = project
+        .run(&[&pictures_of_work[..], &small].concat())
+        .succeeded();
+    for answer in [
+        "per cluster",
+        "in vain per tile",
+        "volumes marked inversely",
+        "depth first",
+    ] {
+        assert!(ran.stdout.contains(answer), "{}", ran.all());
+        let file = format!("out/work_{}.png", answer.replace(' ', "_"));
+        assert!(project.file(&file).exists(), "{file}");
+    }
     // Without a project everything runs that writes no picture.
     let folder = tempfile::tempdir().unwrap();
     let ran = run_in(folder.path(), &["run", "follow_a_pixel"], &[]).succeeded();

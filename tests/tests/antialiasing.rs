@@ -7,7 +7,7 @@ use lightbench::lab::inspect::{FrameInspector, Part};
 use lightbench::render::TargetImage;
 use lightbench::script::{list_pipelines, load_pipeline};
 use lightbench_tests::compare::{mean_difference, share_beyond};
-use lightbench_tests::{Studio, hard_shapes, project, settings};
+use lightbench_tests::{Studio, hard_shapes, project, project_with_mistake, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 
@@ -328,9 +328,7 @@ fn missing_edges_and_wrong_samples_are_caught() {
             "textureLoad(g_albedo, texel, 0u)",
         ),
     ] {
-        let text = Files::shipped().read_text(path).unwrap();
-        assert!(text.contains(from), "{path} has no `{from}`");
-        let (_folder, files) = project(&[(path, &text.replace(from, to))]);
+        let (_folder, files) = project_with_mistake(&[], (path, from, to));
         studio.files = files;
         let wrong = share_beyond(
             &expected,
