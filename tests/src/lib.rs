@@ -16,9 +16,13 @@ pub mod workshop;
 
 pub use workshop::Workshop;
 
+use std::cell::RefCell;
+
 use lightbench::assets::files::Files;
 use lightbench::assets::{Assets, MaterialId, Progress, ReflectionModels};
-use lightbench::render::{Gpu, GpuOptions, Pipeline, Renderer, TargetImage, Variants, View};
+use lightbench::render::{
+    Compiler, Gpu, GpuOptions, Pipeline, Renderer, TargetImage, Variants, View,
+};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 
 /// A scene and a device to draw it on.
@@ -31,6 +35,8 @@ pub struct Studio {
     pub scene: Scene,
     /// The scene's camera.
     pub view: View,
+    /// What has compiled the shipped files, and keeps what pipelines share.
+    shipped: RefCell<Option<Compiler>>,
 }
 
 /// Settings from `name=value` texts.
@@ -68,15 +74,21 @@ impl Studio {
             files,
             scene,
             view,
+            shipped: RefCell::new(None),
         }
     }
 
     /// Shows a scene of a project instead.
     pub fn show(&mut self, files: Files, scene: &str) {
-        let scene = load_scene(&files, scene, &Settings::new(), &Progress::default());
+        self.files = files;
+        self.load(scene, &Settings::new());
+    }
+
+    /// Shows another scene instead.
+    pub fn load(&mut self, scene: &str, settings: &Settings) {
+        let scene = load_scene(&self.files, scene, settings, &Progress::default());
         self.scene = scene.unwrap_or_else(|e| panic!("{e}"));
         self.view = View::from_world(&self.scene.world).unwrap_or_default();
-        self.files = files;
         self.renderer.reset_scene();
     }
 
@@ -88,10 +100,15 @@ impl Studio {
         } else {
             Variants::DEFAULT_MODEL
         };
-        self.renderer
-            .compiler()
-            .compile_for(&self.files, &desc, variants)
-            .unwrap_or_else(|e| panic!("{e}"))
+        let mut shipped = self.shipped.borrow_mut();
+        // The files of a project may have changed since.
+        let mut fresh = None;
+        let compiler = match self.files.project() {
+            Some(_) => fresh.insert(self.renderer.compiler()),
+            None => shipped.get_or_insert_with(|| self.renderer.compiler()),
+        };
+        let pipeline = compiler.compile_for(&self.files, &desc, variants);
+        pipeline.unwrap_or_else(|e| panic!("{e}"))
     }
 
     /// Draws one frame of the scene at its beginning, and keeps all targets and the counters.

@@ -63,6 +63,22 @@ enum Room {
     Short,
     /// None does.
     Enough,
+    /// All lights reach one pixel.
+    OnePoint,
+}
+
+/// The lights of the case `one_point`.
+const POINT_LIGHTS: f64 = 1000.0;
+
+/// Whether a pipeline adds light in a target, one light after the other, and not in registers.
+fn blends(pipeline: &str) -> bool {
+    [
+        "forward_multi_pass",
+        "deferred_shading",
+        "deferred_lighting",
+        "inferred_lighting",
+    ]
+    .contains(&pipeline)
 }
 
 /// The share of the pixels in which two surfaces touch: edges of the atrium's stones.
@@ -162,20 +178,27 @@ fn accumulation(portable: bool) -> &'static str {
 
 /// All pipelines on one scene, with what `portable` leaves of the adapter.
 fn agree(scene: &str, texts: &[&str], portable: bool, room: Room) {
-    agree_among(&PIPELINES, scene, texts, portable, room);
+    let mut studio = studio(portable);
+    agree_among(&mut studio, &PIPELINES, scene, texts, portable, room);
+}
+
+/// A device for several scenes, so that pipelines are compiled once.
+fn studio(portable: bool) -> Studio {
+    Studio::on(gpu(portable), "hard_cases", &settings(&["case=no_objects"]))
 }
 
 fn agree_among(
+    studio: &mut Studio,
     pipelines: &[(&'static str, Surfaces, &[&str])],
     scene: &str,
     texts: &[&str],
     portable: bool,
     room: Room,
 ) {
-    let mut studio = Studio::on(gpu(portable), scene, &settings(texts));
+    studio.load(scene, &settings(texts));
     let pictures: Vec<Picture> = pipelines
         .iter()
-        .map(|pipeline| Picture::draw(&mut studio, *pipeline, accumulation(portable)))
+        .map(|pipeline| Picture::draw(studio, *pipeline, accumulation(portable)))
         .collect();
     let find = |wanted: &str| {
         pictures
@@ -194,7 +217,7 @@ fn agree_among(
         let replaced = (carried != ReflectionModels::all()).then(|| {
             let assets = studio.replace_models(carried);
             let forward = ("forward_single_pass", Surfaces::Exact, &[][..]);
-            let picture = Picture::draw(&mut studio, forward, accumulation(portable));
+            let picture = Picture::draw(studio, forward, accumulation(portable));
             studio.scene.assets = assets;
             picture
         });
@@ -216,15 +239,21 @@ fn agree_among(
         );
         let what = format!("{scene} {texts:?} {name} {surfaces:?}");
         assert!(
-            room == Room::Short || lost == 0,
+            room != Room::Enough || lost == 0,
             "{what}: {lost} pixels lost lights"
         );
         let mean_bound = match surfaces {
             Surfaces::Fetched => GRADIENTS,
             _ => QUANTISATION,
         };
-        assert!(mean <= mean_bound, "{what}: {mean}");
-        assert!(flip <= FLIP, "{what}: FLIP {flip}");
+        // Each of many additions in 16 bits loses up to 2⁻¹² of a sum that is half of all in the mean;
+        // where a pixel has few lights that is less than the bounds.
+        let lost_light = match (portable, room, blends(name)) {
+            (true, Room::OnePoint, true) => POINT_LIGHTS * (-12.0_f64).exp2(),
+            _ => 0.0,
+        };
+        assert!(mean <= mean_bound + lost_light, "{what}: {mean}");
+        assert!(flip <= FLIP + lost_light, "{what}: FLIP {flip}");
         match surfaces {
             _ if portable => {}
             Surfaces::Exact | Surfaces::GBuffer => assert!(order <= bound, "{what}: {order}"),
@@ -252,6 +281,12 @@ fn on_the_atrium_with_portable_features_only() {
 fn on_many_lights() {
     agree("many_lights", &["lights=64"], false, Room::Short);
     agree("many_lights", &["lights=256"], false, Room::Short);
+}
+
+#[test]
+fn on_many_lights_with_portable_features_only() {
+    agree("many_lights", &["lights=64"], true, Room::Short);
+    agree("many_lights", &["lights=256"], true, Room::Short);
 }
 
 #[test]
@@ -306,6 +341,7 @@ fn within_their_capacity_nothing_is_lost() {
             &["packing=arrays", "lights_per_pixel=8"],
         ),
     ];
+    let mut studios = [studio(false), studio(true)];
     for (scene, texts) in [
         ("many_lights", &["lights=64", "range=1.3"][..]),
         ("many_lights", &["lights=256", "range=0.8"]),
@@ -313,8 +349,8 @@ fn within_their_capacity_nothing_is_lost() {
         ("atrium", &["lights=6"]),
         ("hard_cases", &["case=panes"]),
     ] {
-        for portable in [false, true] {
-            agree_among(&LIMITED, scene, texts, portable, Room::Enough);
+        for (portable, studio) in [false, true].into_iter().zip(&mut studios) {
+            agree_among(studio, &LIMITED, scene, texts, portable, Room::Enough);
         }
     }
 }
@@ -352,35 +388,49 @@ fn a_model_that_a_pipeline_lacks_is_drawn_as_another_and_told() {
     assert_eq!(studio.renderer.take_warnings(), [] as [&str; 0]);
 }
 
-#[test]
-fn on_the_hard_cases() {
-    for case in [
-        "camera_inside",
-        "near_plane",
-        "far_plane",
-        "wide_spot",
-        "tiny",
-        "huge",
-        "one_point",
-        "behind",
-        "panes",
-        "no_lights",
-        "no_objects",
-    ] {
+/// Where techniques differ in what they must get right.
+const HARD_CASES: [&str; 11] = [
+    "camera_inside",
+    "near_plane",
+    "far_plane",
+    "wide_spot",
+    "tiny",
+    "huge",
+    "one_point",
+    "behind",
+    "panes",
+    "no_lights",
+    "no_objects",
+];
+
+fn on_hard_cases(portable: bool) {
+    let mut studio = studio(portable);
+    for case in HARD_CASES {
         let room = if case == "one_point" {
-            Room::Short
+            Room::OnePoint
         } else {
             Room::Enough
         };
-        agree("hard_cases", &[&format!("case={case}")], false, room);
+        let case = format!("case={case}");
+        agree_among(
+            &mut studio,
+            &PIPELINES,
+            "hard_cases",
+            &[&case],
+            portable,
+            room,
+        );
     }
 }
 
 #[test]
-fn on_hard_cases_with_portable_features_only() {
-    for case in ["camera_inside", "far_plane", "wide_spot", "panes"] {
-        agree("hard_cases", &[&format!("case={case}")], true, Room::Enough);
-    }
+fn on_the_hard_cases() {
+    on_hard_cases(false);
+}
+
+#[test]
+fn on_the_hard_cases_with_portable_features_only() {
+    on_hard_cases(true);
 }
 
 /// Must-fail twins: a shader with one mistake is outside the bounds that right ones keep.

@@ -11,6 +11,7 @@ pub mod compiling;
 mod drawing;
 mod extent;
 pub mod fields;
+mod heaps;
 pub mod library;
 pub mod log;
 pub mod pipelines;
