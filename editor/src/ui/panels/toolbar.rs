@@ -1,6 +1,6 @@
 //! Scene, pipeline and time at a glance.
 
-use egui::{Align, Button, DragValue, Layout, RichText, Ui};
+use egui::{Button, DragValue, RichText, Ui};
 
 use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
@@ -10,7 +10,7 @@ use crate::ui::theme::Palette;
 /// Draws the toolbar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     ui.add_space(1.0);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         scene(editor, ui);
         ui.separator();
         pipeline(editor, ui);
@@ -108,17 +108,15 @@ fn camera(editor: &mut Editor, ui: &mut Ui) {
     ui.add_enabled_ui(moved, |ui| {
         button(editor, ui, "Reset camera", Action::ResetCamera);
     });
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        ui.label("m/s");
-        let mut speed = editor.workbench.camera.speed;
-        let field = DragValue::new(&mut speed)
-            .range(0.01..=10_000.0)
-            .speed(0.05);
-        let response = ui.add(field.max_decimals(2));
-        let label = ui.label("Flying speed");
-        response.labelled_by(label.id);
-        editor.workbench.camera.speed = speed;
-    });
+    ui.separator();
+    let label = ui.label("Flying speed");
+    let mut speed = editor.workbench.camera.speed;
+    let field = DragValue::new(&mut speed)
+        .range(0.01..=10_000.0)
+        .speed(0.05)
+        .suffix(" m/s");
+    ui.add(field.max_decimals(2)).labelled_by(label.id);
+    editor.workbench.camera.speed = speed;
 }
 
 fn button(editor: &mut Editor, ui: &mut Ui, label: &str, action: Action) {
