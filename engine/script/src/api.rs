@@ -10,7 +10,9 @@ use std::sync::Arc;
 
 use lightbench_render::Place;
 use lightbench_render::problem::suggestion;
-use rhai::{Dynamic, Engine, EvalAltResult, NativeCallContext, Position, Variant};
+use rhai::{
+    Dynamic, Engine, EvalAltResult, FuncRegistration, NativeCallContext, Position, Variant,
+};
 
 use crate::names::{Entry, Names, list};
 pub(crate) use crate::spelling::{spell, spell_call, spell_number, spell_text};
@@ -163,6 +165,29 @@ impl<'a> Api<'a> {
             Ok(())
         };
         self.raw(&name, &types, entry, 1, body);
+    }
+
+    /// Registers writing to a property of what a handle stands for. The handle itself does not change,
+    /// so that it may be a constant.
+    pub(crate) fn handle_setter<T: ScriptType>(
+        &mut self,
+        name: &str,
+        body: impl Fn(&T, &mut Arguments) -> Result<(), Mistake> + Send + Sync + 'static,
+    ) {
+        let entry = Entry::new(Some(T::NAME), name, true, "");
+        let set = move |context: NativeCallContext, handle: &mut T, value: Dynamic| {
+            let (mut receiver, mut value) = (Dynamic::from(handle.clone()), value);
+            let mut arguments = Arguments {
+                context: &context,
+                values: &mut [&mut receiver, &mut value],
+                entry: &entry,
+                skip: 1,
+            };
+            body(handle, &mut arguments).map_err(Box::<EvalAltResult>::from)
+        };
+        FuncRegistration::new_setter(name)
+            .with_purity(true)
+            .register_into_engine(self.engine, set);
     }
 
     fn register<R: Variant + Clone>(
