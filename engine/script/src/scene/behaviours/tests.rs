@@ -258,7 +258,7 @@ fn shipped_behaviours_do_what_they_say() {
     let files = Files::with_project(own.path()).unwrap();
     let mut scene = load_scene(&files, "test", &Settings::new(), &Progress::new()).unwrap();
     scene.happen(SceneEvent::KeyDown("right".to_owned()));
-    scene.happen(SceneEvent::KeyDown("space".to_owned()));
+    scene.happen(SceneEvent::KeyDown("enter".to_owned()));
     let (mut least, mut most, mut highest) = (f32::MAX, 0.0_f32, 0.0_f32);
     for step in 1..=120 {
         scene.update(f64::from(step) * STEP, STEP).unwrap();
