@@ -14,6 +14,8 @@ use super::report::say;
 enum Page {
     /// Every function of pipeline files, by kind of pass, with a whole example of each
     Pipelines,
+    /// Every function of scene scripts and behaviours, with an example of each
+    Api,
     /// The pipelines side by side: what each can do, what it trades and when to choose it
     Abilities,
     /// What shaders can import: the modules of shaders/lib, with those of the project
@@ -47,6 +49,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
     let text = match arguments.page {
         Page::Pipelines => reference::pipelines(files)?,
+        Page::Api => reference::api(),
         Page::Abilities => reference::abilities(files)?,
         Page::Shaders => reference::shaders(files)?,
         Page::Experiments => reference::experiments(),

@@ -4,6 +4,7 @@
 use lightbench_assets::Progress;
 use lightbench_render::Problem;
 
+use crate::reference::calls::CALLS;
 use crate::testing::project;
 use crate::{Settings, load_scene, scene_names};
 
@@ -290,53 +291,6 @@ fn forty_mistakes() {
     }
     assert!(wrong.is_empty(), "{wrong}");
 }
-
-/// Calls with whole numbers. Each is run with `1` and with `1.0` and must give the same.
-const CALLS: &[&str] = &[
-    "sin(1) + cos(1) + tan(1) + asin(1) + acos(1) + atan(1) + atan(1, 2) + hypot(3, 4)",
-    "sinh(1) + cosh(1) + tanh(1) + sqrt(4) + exp(1) + ln(2) + log(100) + log2(8) + pow(2, 3)",
-    "floor(2) + ceiling(2) + round(2) + fraction(2) + to_radians(90) + to_degrees(1)",
-    "lerp(1, 3, 1) + clamp(5, 0, 2) + smoothstep(0, 2, 1) + modulo(7, 3)",
-    "min(1, 2) + max(1, 2) + abs(-3)",
-    "vec3(1, 2, 3) * 2 + vec3(1) / 2 - 2 * vec3(4, 5, 6)",
-    "let v = vec3(1, 2, 3); v.x = 4; v.y += 1; v",
-    "vec3(1, 2, 3).dot(vec3(3, 2, 1))",
-    "turn(10, 20, 30) * vec3(1, 0, 0) + turn(vec3(0, 1, 0), 90).apply(vec3(1, 0, 0))",
-    "turn(1, 2, 3).apply(1, 0, 0)",
-    "lerp(vec3(0, 0, 0), vec3(2, 2, 2), 1)",
-    "rgb(1, 1, 0) * 2 + srgb(1, 0, 1) / 2 + hsv(30, 1, 1) + kelvin(5000)",
-    "let c = rgb(1, 0, 0); c.g = 1; c",
-    "noise(1) + noise(1, 2) + noise(1, 2, 3) + fractal_noise(1, 2, 3, 4)",
-    "let r = random(7); [r.float(), r.range(1, 2), r.int(1, 6), r.normal(0, 1), r.chance(1)]",
-    "spawn().at(1, 2, 3).move(1, 0, 0).turn(10, 20, 30).rotate(1, 2, 3).scale(2).position",
-    "spawn().scale(1, 2, 3).size",
-    "spawn().velocity(1, 2, 3).spin(0, 90, 0).animation_speed(2).animation_start(1).position",
-    "let e = spawn(); e.size = 2; e.size",
-    "spawn().look_at(1, 2, 3).rotation.angles + spawn().aim(1, 2, 3).rotation.angles",
-    "point_light().color(1, 1, 1).intensity(3).range(5).intensity",
-    "spot_light().inner(20).outer(40).outer",
-    "point_light().clip_volume(mesh(box(1, 2, 3)), vec3(0, 1, 0)).range",
-    "let l = point_light(); l.intensity = 2; l.range = 3; l.range",
-    "let l = spot_light(); l.inner = 10; l.outer = 20; l.inner",
-    "camera().fov(50).near(1).far(100).fov",
-    "let c = camera(); c.fov = 60; c.fov",
-    "mesh(plane(2, 3).segments(4, 4)).triangles + mesh(box(1, 2, 3)).triangles + mesh(box(2)).triangles",
-    "mesh(sphere(1).repeat(2, 3).segments(8)).triangles + mesh(icosphere(1).subdivisions(1)).triangles",
-    "mesh(cylinder(1, 2)).triangles + mesh(cone(1, 2)).triangles + mesh(torus(2, 1)).triangles",
-    "mesh(lathe([[1, 0], [1, 2]])).triangles + mesh(faces([[vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0)]])).triangles",
-    "mesh(arched_wall(4, 5, 1, 1)).triangles + mesh(moulding([[0, 0], [1, 1]], 3)).triangles",
-    "mesh(column(1, 5).taper(1).flutes(4)).triangles",
-    "mesh(arch(1, 2, 1).span(180).voussoirs(5).joint(0)).triangles",
-    "mesh(cloth(1, 2).waves(3, 1).sag(1).seed(2)).triangles",
-    "material(\"m\").color(1, 1, 1).specular(1).power(32).emissive(1, 2, 3).cutoff(1).opacity(1); 1",
-    "material(\"m\").specular(1, 0, 1).blinn_phong(32).phong(8).beckmann(1).ggx(1).roughness(1).ward(1, 1); 1",
-    "material(\"m\").surface(stone_texture().size(8).seed(2).clouds(2).depth(1)); 1",
-    "material(\"m\").texture(marble_texture().size(8).bands(1, 2)); 1",
-    "material(\"m\").surface(brick_texture().size(8).pieces(2, 4).joint(0)); 1",
-    "material(\"m\").surface(tiles_texture().size(8).pieces(2).stains(1)); 1",
-    "material(\"m\").surface(weave_texture().size(8).stripes(2, 1)); 1",
-    "material(\"m\").texture(checker_texture(4).size(8)); 1",
-];
 
 fn printed(call: &str) -> String {
     let (before, last) = call.rsplit_once("; ").unwrap_or(("", call));

@@ -7,6 +7,8 @@
 //! a test holds them to what is made now.
 
 mod abilities;
+mod api;
+pub(crate) mod calls;
 mod experiments;
 mod functions;
 mod parts;
@@ -17,6 +19,7 @@ mod shaders;
 mod tests;
 
 pub use abilities::abilities_page as abilities;
+pub use api::api;
 pub use experiments::experiments;
 pub use pipelines::pipelines;
 pub use shaders::shaders;

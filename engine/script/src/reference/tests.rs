@@ -42,6 +42,7 @@ fn the_copies_are_what_is_made_now() {
         &pipelines(&files).unwrap(),
         "lightbench docs pipelines",
     );
+    same("api.md", &api(), "lightbench docs api");
     same(
         "abilities.md",
         &abilities(&files).unwrap(),
@@ -317,5 +318,59 @@ fn every_shipped_pipeline_says_what_it_trades_needs_and_is_for() {
         }
         let memory = &header.headings[1].1;
         assert!(memory.contains("bytes a pixel"), "{}", pipeline.path);
+    }
+}
+
+#[test]
+fn every_function_of_scenes_has_a_text_and_an_example() {
+    let mut missing = Vec::new();
+    for entry in crate::scene_names().entries() {
+        // A file that is not there can't be an example; tests of models read some.
+        let of_files = [
+            "load_model",
+            "load_gltf",
+            "load_obj",
+            "model_mesh",
+            "model_texture",
+        ];
+        if of_files.contains(&entry.name.as_str()) || entry.section == "Saved scenes" {
+            continue;
+        }
+        // The writing of a property stands beside its reading.
+        if entry.about.is_empty() && !entry.property {
+            missing.push(format!("{} has no text", entry.form()));
+        }
+        if super::api::example(entry).is_none() {
+            missing.push(format!(
+                "{:?}{} has no example",
+                entry.receiver,
+                entry.form()
+            ));
+        }
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
+#[test]
+fn examples_that_need_files_run() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let shipped = Files::with_project(folder).unwrap();
+    let spin = shipped.read_text("scripts/behaviours/spin.rhai").unwrap();
+    for call in super::calls::OTHER_CALLS {
+        let (before, last) = call.rsplit_once("; ").unwrap_or(("", call));
+        let text = format!("{before};\nprint(`${{{last}}}`);");
+        let (folder, files) = crate::testing::project(&[
+            ("scripts/scenes/test.rhai", &text),
+            ("scripts/behaviours/spin.rhai", &spin),
+        ]);
+        // A picture of one grey pixel, as TGA.
+        let mut leaf = vec![0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, 0x28];
+        leaf.extend([128, 128, 128, 255]);
+        std::fs::write(folder.path().join("leaf.tga"), leaf).unwrap();
+        let progress = lightbench_assets::Progress::new();
+        let loaded = crate::load_scene(&files, "test", &crate::Settings::new(), &progress);
+        if let Err(problems) = loaded {
+            panic!("{call}\n{problems}");
+        }
     }
 }

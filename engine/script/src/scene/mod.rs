@@ -186,6 +186,7 @@ fn host(
                 watch.stop_with(progress);
                 let made = Stage::new(files, reuse, settings, limits, watch, log, progress);
                 made.lock().at_work = at_work.clone();
+                api.section("Parameters");
                 let stage_of_parameters = made.clone();
                 parameters::register(api, move |arguments| {
                     let data = &mut *stage_of_parameters.lock();
@@ -195,19 +196,30 @@ fn host(
                     };
                     parameters::declare(parameters, settings, arguments)
                 });
+                api.section("Entities");
                 entities::register(api, &made);
+                api.section("Motion");
                 motion::register(api, &made);
+                api.section("Extent");
                 bounds::register(api, &made);
+                api.section("Shapes and meshes");
                 shapes::register(api, &made);
+                api.section("Textures");
                 textures::register(api, &made);
+                api.section("Saved scenes");
                 saved::register(api, &defined);
+                api.section("Materials");
                 materials::register(api, &made);
+                api.section("Models from files");
                 models::register(api, &made);
+                api.section("Lights");
                 lights::register(api, &made);
+                api.section("Cameras");
                 cameras::register(api, &made);
                 behaviours::register(api, &made);
                 input::register(api, &made);
                 picking::register(api, &made);
+                api.section("State");
                 state::register(api);
                 stage = Some(made);
             },
