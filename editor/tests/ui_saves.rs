@@ -92,10 +92,10 @@ const PLANTED: [Planted; 14] = [
         "an element is chosen by a whole number, not by `f32`",
     ),
     (
-        "shaders/deferred_shading/light.wgsl",
-        "@group(1) @binding(1)",
-        "@group(1) @binding(2)",
-        "@group(1) @binding(2)",
+        "shaders/lib/g_buffer_texels.wgsl",
+        "@group(1) @binding(10) var depth: texture_depth_2d",
+        "@group(1) @binding(11) var depth: texture_depth_2d",
+        "@group(1) @binding(11)",
     ),
     (
         "shaders/deferred_shading/g_buffer.wgsl",
@@ -140,15 +140,15 @@ const PLANTED: [Planted; 14] = [
         "which nobody wrote yet",
     ),
     (
-        "scripts/pipelines/deferred_shading.rhai",
+        "scripts/pipelines/parts/g_buffer.rhai",
         ".reads(\"g_albedo\")",
         ".reads(\"g_albdeo\")",
         "did you mean `g_albedo`?",
     ),
     (
         "scripts/pipelines/deferred_shading.rhai",
-        "p.lights(\"lights\")",
-        "p.fullscreen(\"lights\")",
+        "p.lights(\"lights\" + part.name)",
+        "p.fullscreen(\"lights\" + part.name)",
         "deferred_shading.rhai",
     ),
 ];

@@ -18,6 +18,7 @@ pub fn combo(
     let name = ui.label(label);
     let combo = ComboBox::from_id_salt(label)
         .selected_text(selected)
+        .truncate()
         .width(width);
     combo.show_ui(ui, entries).response.labelled_by(name.id)
 }

@@ -73,7 +73,7 @@ pub(crate) const OTHER_CALLS: &[&str] = &[
     "[random(1).pick([\"a\", \"b\"]), random(2).shuffle([1, 2, 3]), random(3).direction()]",
     "state.turns = 3; state.has(\"turns\")",
     "material(\"leaf\").texture(picture(\"leaf.tga\")).normals(picture(\"leaf.tga\")).two_sided(); 1",
-    "material(\"wood\").surface(plaster_texture().size(8).colors(rgb(1, 0, 0), rgb(0, 1, 0))); 1",
+    "material(\"wood\").surface(plaster_texture().size(8).colors(rgb(1, 0, 0))); 1",
     "spawn(\"globe\").behave(\"spin\", #{ speed: 20 }).behaving(true).name",
     "spawn(\"candle\").send(\"switch\"); broadcast(\"night\", true)",
     "[key_down(\"left\"), keys_down(), pointer()]",
