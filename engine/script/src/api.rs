@@ -165,6 +165,33 @@ impl<'a> Api<'a> {
         self.raw(&name, &types, entry, 1, body);
     }
 
+    /// Registers one form for several mixtures of types, each of which Rhai prefers to a form that
+    /// takes values of any type.
+    pub(crate) fn typed<R: Variant + Clone>(
+        &mut self,
+        receiver: Option<&'static str>,
+        form: &str,
+        mixtures: &[Vec<TypeId>],
+        about: &'static str,
+        body: impl Fn(&mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
+    ) {
+        let entry = Arc::new(Entry::new(receiver, form, false, about));
+        self.names.add(Entry::clone(&entry));
+        let body = Arc::new(body);
+        for types in mixtures {
+            let body = Arc::clone(&body);
+            // Of a method, the receiver stands before what is in parentheses.
+            let skip = types.len() - entry.arguments.len();
+            self.raw(
+                &entry.name.clone(),
+                types,
+                Arc::clone(&entry),
+                skip,
+                move |a| body(a),
+            );
+        }
+    }
+
     fn register<R: Variant + Clone>(
         &mut self,
         name: &str,
@@ -241,7 +268,8 @@ impl Arguments<'_, '_, '_, '_> {
         Some(format!("{}({})", self.entry.name, values?.join(", ")))
     }
 
-    fn receiver<T: ScriptType>(&self) -> Result<T, Mistake> {
+    /// The object whose method is called.
+    pub(crate) fn receiver<T: ScriptType>(&self) -> Result<T, Mistake> {
         self.values[0]
             .read_lock::<T>()
             .map(|object| object.clone())
@@ -255,16 +283,8 @@ impl Arguments<'_, '_, '_, '_> {
         if number.is_finite() {
             Ok(number)
         } else {
-            Err(Mistake::new(format!(
-                "`{}` of `{}` is {}: did something divide by zero?",
-                self.name(index),
-                self.entry.name,
-                if number.is_nan() {
-                    "not a number"
-                } else {
-                    "infinite"
-                },
-            )))
+            let what = format!("`{}` of `{}`", self.name(index), self.entry.name);
+            Err(not_finite(&what, number))
         }
     }
 
@@ -407,6 +427,18 @@ impl Arguments<'_, '_, '_, '_> {
     }
 }
 
+/// The mistake of a number that is none, or infinite.
+pub(crate) fn not_finite(what: &str, number: f64) -> Mistake {
+    Mistake::new(format!(
+        "{what} is {}: did something divide by zero?",
+        if number.is_nan() {
+            "not a number"
+        } else {
+            "infinite"
+        },
+    ))
+}
+
 /// A number, whether written `1` or `1.0`.
 pub(crate) fn as_number(value: &Dynamic) -> Option<f64> {
     value
@@ -461,7 +493,7 @@ pub(crate) fn kind(name: &str) -> String {
 }
 
 /// The name with its article.
-fn a(name: &str) -> String {
+pub(crate) fn a(name: &str) -> String {
     let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) {
         "an"
     } else {

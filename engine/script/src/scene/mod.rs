@@ -2,9 +2,11 @@
 
 mod bounds;
 mod cameras;
+mod columns;
 mod data;
 mod entities;
 mod faces;
+mod fields;
 mod lights;
 mod list;
 mod materials;
@@ -13,9 +15,13 @@ mod motion;
 mod recipes;
 mod reflection;
 mod saved;
+mod selection;
 mod shapes;
 mod state;
+mod tables;
+mod tags;
 mod textures;
+mod values;
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -191,6 +197,10 @@ fn host(
                 lights::register(api, &made);
                 cameras::register(api, &made);
                 state::register(api);
+                fields::register(api, &made);
+                tags::register(api, &made);
+                selection::register(api, &made);
+                columns::register(api, &made);
                 stage = Some(made);
             },
             globals: vec![("state", Dynamic::from(state::State::default()))],
@@ -424,6 +434,8 @@ const _: fn() = || {
     assert_send::<Scene>();
 };
 
+#[cfg(test)]
+mod reach_tests;
 #[cfg(test)]
 mod saved_tests;
 #[cfg(test)]
