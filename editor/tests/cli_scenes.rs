@@ -121,6 +121,7 @@ fn a_frame_is_measured_system_by_system() {
         "script",
         "world matrices",
         "extraction",
+        "recording",
         "p95",
     ] {
         assert!(

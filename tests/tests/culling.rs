@@ -180,8 +180,8 @@ fn mistakes_of_tiles_are_caught() {
     // Without bounds on depth lists grow.
     let mistake = (
         "shaders/lib/tile_lights.wgsl",
-        "meets_range(ball, range.nearest, range.farthest)",
-        "meets_range(ball, 0.0, range.farthest)",
+        "sides_box(sides, range.nearest, range.farthest)",
+        "sides_box(sides, 0.01, range.farthest)",
     );
     let (_, [found, _]) = of_tiles(&mut studio, 16, &[], Some(mistake));
     println!("right: {right:?}, without: {found:?}");

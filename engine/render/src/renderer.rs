@@ -144,43 +144,8 @@ impl Renderer {
         pipeline.begin_frame(self.serial, self.index);
         self.views.draw(self.index, self.frame.data.view_projection);
         let started = Instant::now();
-        let group = self.upload(pipeline);
-        let mut encoder = self
-            .gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.queries.begin(
-            self.serial,
-            measures(pipeline, &self.frame, &self.inspector),
-            pipeline.desc.counters.len(),
-        );
-        let recording = Recording {
-            frame: &self.frame,
-            meshes: &self.scene.meshes,
-            scene: &group,
-            view_bytes: self.scene.view_bytes(),
-        };
-        record(
-            pipeline,
-            &recording,
-            &mut encoder,
-            &self.queries,
-            &mut self.inspector,
-            &mut self.statistics.passes,
-        );
-        for (index, counter) in pipeline.desc.counters.iter().enumerate() {
-            let targets = pipeline.targets();
-            if let Some(buffer) = targets.and_then(|targets| targets.buffer(&counter.buffer)) {
-                self.queries
-                    .counter(index, buffer, counter.word, &mut encoder);
-            }
-        }
-        self.queries.resolve(&mut encoder);
-        self.inspector.end_frame(&mut encoder);
-        self.submit(encoder);
-        self.queries.submitted();
-        self.inspector.submitted();
-
+        let (recording, ()) = SystemTime::of("recording", || self.record_frame(pipeline));
+        self.statistics.systems.push(recording);
         self.statistics.record_ms += started.elapsed().as_secs_f64() * 1e3;
         self.statistics.gpu_ms = None;
         self.statistics.objects = self.frame.visible_objects;
@@ -226,6 +191,46 @@ impl Renderer {
         warm(pipeline, &recording, &self.queries, &mut encoder);
         self.submit(encoder);
         Ok(false)
+    }
+
+    /// Uploads the frame, records all passes and submits them.
+    fn record_frame(&mut self, pipeline: &Pipeline) {
+        let group = self.upload(pipeline);
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.queries.begin(
+            self.serial,
+            measures(pipeline, &self.frame, &self.inspector),
+            pipeline.desc.counters.len(),
+        );
+        let recording = Recording {
+            frame: &self.frame,
+            meshes: &self.scene.meshes,
+            scene: &group,
+            view_bytes: self.scene.view_bytes(),
+        };
+        record(
+            pipeline,
+            &recording,
+            &mut encoder,
+            &self.queries,
+            &mut self.inspector,
+            &mut self.statistics.passes,
+        );
+        for (index, counter) in pipeline.desc.counters.iter().enumerate() {
+            let targets = pipeline.targets();
+            if let Some(buffer) = targets.and_then(|targets| targets.buffer(&counter.buffer)) {
+                self.queries
+                    .counter(index, buffer, counter.word, &mut encoder);
+            }
+        }
+        self.queries.resolve(&mut encoder);
+        self.inspector.end_frame(&mut encoder);
+        self.submit(encoder);
+        self.queries.submitted();
+        self.inspector.submitted();
     }
 
     fn submit(&self, encoder: wgpu::CommandEncoder) {

@@ -50,7 +50,8 @@ impl PassStatistics {
 pub struct FrameStatistics {
     /// One entry a pass, in the order of the description.
     pub passes: Vec<PassStatistics>,
-    /// What it took to copy changed rows and to extract the frame, as time of the calling thread.
+    /// What it took to copy changed rows, to extract the frame, and to upload, record and submit it, as
+    /// time of the calling thread.
     pub systems: Vec<lightbench_world::SystemTime>,
     /// From the beginning of the first pass to the end of the last on the GPU, milliseconds.
     pub gpu_ms: Option<f64>,

@@ -10,7 +10,9 @@ use std::sync::Arc;
 
 use lightbench_render::Place;
 use lightbench_render::problem::suggestion;
-use rhai::{Dynamic, Engine, EvalAltResult, NativeCallContext, Position, Variant};
+use rhai::{
+    Dynamic, Engine, EvalAltResult, FuncRegistration, NativeCallContext, Position, Variant,
+};
 
 use crate::names::{Entry, Names, list};
 pub(crate) use crate::spelling::{spell, spell_call, spell_number, spell_text};
@@ -169,27 +171,47 @@ impl<'a> Api<'a> {
     /// takes values of any type.
     pub(crate) fn typed<R: Variant + Clone>(
         &mut self,
-        receiver: Option<&'static str>,
         form: &str,
         mixtures: &[Vec<TypeId>],
         about: &'static str,
         body: impl Fn(&mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
     ) {
-        let entry = Arc::new(Entry::new(receiver, form, false, about));
+        let entry = Arc::new(Entry::new(None, form, false, about));
         self.names.add(Entry::clone(&entry));
         let body = Arc::new(body);
         for types in mixtures {
             let body = Arc::clone(&body);
-            // Of a method, the receiver stands before what is in parentheses.
-            let skip = types.len() - entry.arguments.len();
             self.raw(
                 &entry.name.clone(),
                 types,
                 Arc::clone(&entry),
-                skip,
+                0,
                 move |a| body(a),
             );
         }
+    }
+
+    /// Registers writing to a property of what a handle stands for. The handle itself does not change,
+    /// so that it may be a constant.
+    pub(crate) fn handle_setter<T: ScriptType>(
+        &mut self,
+        name: &str,
+        body: impl Fn(&T, &mut Arguments) -> Result<(), Mistake> + Send + Sync + 'static,
+    ) {
+        let entry = Entry::new(Some(T::NAME), name, true, "");
+        let set = move |context: NativeCallContext, handle: &mut T, value: Dynamic| {
+            let (mut receiver, mut value) = (Dynamic::from(handle.clone()), value);
+            let mut arguments = Arguments {
+                context: &context,
+                values: &mut [&mut receiver, &mut value],
+                entry: &entry,
+                skip: 1,
+            };
+            body(handle, &mut arguments).map_err(Box::<EvalAltResult>::from)
+        };
+        FuncRegistration::new_setter(name)
+            .with_purity(true)
+            .register_into_engine(self.engine, set);
     }
 
     fn register<R: Variant + Clone>(
@@ -268,8 +290,7 @@ impl Arguments<'_, '_, '_, '_> {
         Some(format!("{}({})", self.entry.name, values?.join(", ")))
     }
 
-    /// The object whose method is called.
-    pub(crate) fn receiver<T: ScriptType>(&self) -> Result<T, Mistake> {
+    fn receiver<T: ScriptType>(&self) -> Result<T, Mistake> {
         self.values[0]
             .read_lock::<T>()
             .map(|object| object.clone())
@@ -493,7 +514,7 @@ pub(crate) fn kind(name: &str) -> String {
 }
 
 /// The name with its article.
-pub(crate) fn a(name: &str) -> String {
+fn a(name: &str) -> String {
     let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) {
         "an"
     } else {

@@ -37,8 +37,28 @@ pub(crate) struct Extras<'a> {
     pub(crate) register: &'a mut dyn FnMut(&mut Api, &Arc<Watch>, &Log),
     /// Its global variables.
     pub(crate) globals: Vec<(&'static str, Dynamic)>,
+    /// Variables whose values depend on who asks, before those.
+    pub(crate) variables: Variables,
     /// Where compiled files are kept.
     pub(crate) reuse: Reuse,
+}
+
+/// Looks a variable up: `None` where it is none of these.
+type FindVariable = dyn Fn(&str) -> Result<Option<Dynamic>, Mistake> + Send + Sync;
+
+/// Variables that are looked up when they are read.
+pub(crate) struct Variables {
+    pub(crate) names: Vec<&'static str>,
+    pub(crate) find: Box<FindVariable>,
+}
+
+impl Default for Variables {
+    fn default() -> Self {
+        Self {
+            names: Vec::new(),
+            find: Box::new(|_| Ok(None)),
+        }
+    }
 }
 
 impl Host {
@@ -52,7 +72,8 @@ impl Host {
         listen(&mut engine, &log);
         map_words(&mut engine);
         take_away(&mut engine);
-        show_constants(&mut engine);
+        let mut globals = extras.variables.names;
+        find_variables(&mut engine, extras.variables.find);
 
         let mut names = Names::default();
         for signature in builtin_signatures(&engine) {
@@ -66,7 +87,6 @@ impl Host {
         (extras.register)(&mut api, &watch, &log);
 
         let mut module = Module::new();
-        let mut globals = Vec::new();
         for (name, value) in extras.globals {
             module.set_var(name, value);
             globals.push(name);
@@ -256,16 +276,20 @@ fn map_words(engine: &mut Engine) {
     });
 }
 
-/// Lets functions see the constants of their file, which Rhai hides behind `global::`.
-fn show_constants(engine: &mut Engine) {
+/// Lets functions see the constants of their file, which Rhai hides behind `global::`, and what `find`
+/// knows.
+fn find_variables(engine: &mut Engine, find: Box<FindVariable>) {
     #[allow(deprecated)] // Rhai marks what may still change so; nothing is going away.
-    engine.on_var(|name, index, context| {
+    engine.on_var(move |name, index, context| {
         // A variable with an index was found when the file was compiled.
         if index > 0 {
             return Ok(None);
         }
         if context.scope().contains(name) {
             return Ok(None);
+        }
+        if let Some(value) = find(name)? {
+            return Ok(Some(value));
         }
         let Some(constants) = &context.global_runtime_state().constants else {
             return Ok(None);

@@ -52,7 +52,7 @@ pub use names::{Entry, Names};
 pub use parameters::{SceneParameter, SceneParameterKind};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
-    SCENE_EXTENSION, SCENES, Scene, SceneEntry, list_scenes, load_scene, load_scene_within,
-    scene_names,
+    BEHAVIOURS, BehaviourInfo, Ray, SCENE_EXTENSION, SCENES, Scene, SceneEntry, SceneEvent,
+    list_scenes, load_scene, load_scene_within, scene_names,
 };
 pub use settings::{SettingValue, Settings};

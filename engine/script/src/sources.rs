@@ -79,7 +79,8 @@ impl Source {
                     }
                 }
                 Token::InterpolatedString(_) => interrupted_texts.push(depth),
-                Token::RightParen => in_arguments = false,
+                // `()` without anything in it is one token.
+                Token::RightParen | Token::Unit => in_arguments = false,
                 Token::EOF => break,
                 _ => {}
             }

@@ -1,7 +1,8 @@
 //! Parameters as widgets: of the pipeline and of the scene.
 
 use egui::{Align, ComboBox, Layout, RichText, ScrollArea, Slider, TextEdit, Ui};
-use lightbench::script::SettingValue;
+use lightbench::script::{Scene, SettingValue, Settings};
+use lightbench::world::{Entity, Name};
 
 use super::widgets::words;
 use crate::ui::editor::Editor;
@@ -26,7 +27,9 @@ pub fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     };
     let description = desc.description.clone();
     let fields = Field::of_pipeline(&desc.parameters, &slot.settings);
-    if let Some((name, change)) = list(ui, &description, &fields) {
+    let scroll = ScrollArea::vertical().auto_shrink(false);
+    let changed = scroll.show(ui, |ui| list(ui, &description, &fields)).inner;
+    if let Some((name, change)) = changed {
         match change {
             Change::Set(value) => workbench.pipelines.set(&name, value),
             Change::Reset => workbench.pipelines.unset(&name),
@@ -46,31 +49,91 @@ pub fn scene(editor: &mut Editor, ui: &mut Ui) {
     let fields = Field::of_scene(&scene.parameters, &settings);
     let entry = workbench.library.scene(scenes.selected());
     let description = entry.map_or(String::new(), |entry| entry.description.clone());
-    if let Some((name, change)) = list(ui, &description, &fields) {
+    let behaviours = behaviours(scene);
+    let (mut changed, mut behaving) = (None, None);
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        changed = list(ui, &description, &fields);
+        for (entity, title, fields) in &behaviours {
+            ui.add_space(6.0);
+            ui.label(RichText::new(title).strong());
+            ui.push_id(entity, |ui| {
+                if let Some((name, change)) = rows(ui, fields) {
+                    behaving = Some((*entity, name, change));
+                }
+            });
+        }
+    });
+    if let Some((name, change)) = changed {
         match change {
             Change::Set(value) => scenes.set(&name, value),
             Change::Reset => scenes.unset(&name),
         }
     }
+    let Some((entity, name, change)) = behaving else {
+        return;
+    };
+    let fields = behaviours.iter().find(|(owner, ..)| *owner == entity);
+    let field = fields.and_then(|(.., fields)| fields.iter().find(|field| field.name == name));
+    let value = match (change, field) {
+        (Change::Set(value), _) => value,
+        (Change::Reset, Some(field)) => field.default.clone(),
+        (Change::Reset, None) => return,
+    };
+    if let Some(scene) = scenes.scene_mut()
+        && let Err(error) = scene.set_behaviour(entity, &name, &value)
+    {
+        workbench.log.error(error);
+    }
 }
 
-/// Draws all fields and returns the one that changed.
-fn list(ui: &mut Ui, description: &str, fields: &[Field]) -> Option<(String, Change)> {
-    let mut changed = None;
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        if !description.is_empty() {
-            ui.label(RichText::new(description).weak());
-            ui.add_space(4.0);
-        }
-        if fields.is_empty() {
-            ui.label(RichText::new("There are no parameters.").weak());
-        }
-        for field in fields {
-            if let Some(change) = row(ui, field) {
-                changed = Some((field.name.clone(), change));
+/// Behaviours whose parameters are shown; a scene may have thousands.
+const MOST_BEHAVIOURS: usize = 32;
+
+/// The first behaviours of a scene that have parameters: whose they are, a title, and what can be set.
+fn behaviours(scene: &Scene) -> Vec<(Entity, String, Vec<Field>)> {
+    let all = scene.behaviours().into_iter();
+    all.filter(|behaviour| !behaviour.parameters.is_empty())
+        .take(MOST_BEHAVIOURS)
+        .map(|behaviour| {
+            let name: Option<Name> = scene.world.get(behaviour.entity);
+            let name = name.map_or_else(|| "(no name)".to_owned(), |name| name.text);
+            let file = behaviour.path.rsplit('/').next().unwrap_or_default();
+            let kind = file.trim_end_matches(".rhai");
+            let stopped = if behaviour.stopped {
+                ", stopped by an error"
+            } else {
+                ""
+            };
+            let title = format!("{name}: {kind}{stopped}");
+            let mut in_force = Settings::new();
+            for parameter in &behaviour.parameters {
+                in_force.set(&parameter.name, parameter.value.clone());
             }
+            let fields = Field::of_scene(&behaviour.parameters, &in_force);
+            (behaviour.entity, title, fields)
+        })
+        .collect()
+}
+
+/// Draws a description and all fields, and returns the field that changed.
+fn list(ui: &mut Ui, description: &str, fields: &[Field]) -> Option<(String, Change)> {
+    if !description.is_empty() {
+        ui.label(RichText::new(description).weak());
+        ui.add_space(4.0);
+    }
+    if fields.is_empty() {
+        ui.label(RichText::new("There are no parameters.").weak());
+    }
+    rows(ui, fields)
+}
+
+fn rows(ui: &mut Ui, fields: &[Field]) -> Option<(String, Change)> {
+    let mut changed = None;
+    for field in fields {
+        if let Some(change) = row(ui, field) {
+            changed = Some((field.name.clone(), change));
         }
-    });
+    }
     changed
 }
 

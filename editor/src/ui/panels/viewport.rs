@@ -7,6 +7,7 @@ use egui::{
     RichText, Sense, TextureOptions, Ui, vec2,
 };
 use lightbench::render::Problem;
+use lightbench::script::SceneEvent;
 use lightbench::world::glam::{Vec2, Vec3};
 
 use super::heat_map;
@@ -33,7 +34,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         .filter(|_| response.clicked())
     {
         probe(editor, rect, at);
+        let share = (at - rect.min) / rect.size();
+        editor
+            .workbench
+            .click([share.x, share.y], rect.aspect_ratio());
     }
+    listen(editor, ui, &response);
 
     let pixels = rect.size() * ui.ctx().pixels_per_point();
     let size = (pixels.x.round() as u32, pixels.y.round() as u32);
@@ -98,6 +104,39 @@ fn probed_pixel(editor: &Editor, ui: &Ui, rect: Rect) {
     for (radius, color) in [(6.0, Color32::BLACK), (5.0, Color32::WHITE)] {
         painter.circle_stroke(center, radius, egui::Stroke::new(1.0, color));
     }
+}
+
+/// Keys and pointer to the scene's scripts, while the pointer is over the picture.
+fn listen(editor: &mut Editor, ui: &Ui, response: &Response) {
+    let workbench = &mut editor.workbench;
+    let pointer = response.hover_pos().map(|at| {
+        let share = (at - response.rect.min) / response.rect.size();
+        [share.x, share.y]
+    });
+    if pointer.is_none() || ui.ctx().egui_wants_keyboard_input() {
+        workbench.happen(SceneEvent::Leave);
+        return;
+    }
+    workbench.happen(SceneEvent::Pointer(pointer));
+    ui.input(|input| {
+        for event in &input.events {
+            if let egui::Event::Key {
+                key,
+                pressed,
+                modifiers,
+                ..
+            } = event
+                && !modifiers.command
+            {
+                let name = key.name().to_lowercase();
+                workbench.happen(if *pressed {
+                    SceneEvent::KeyDown(name)
+                } else {
+                    SceneEvent::KeyUp(name)
+                });
+            }
+        }
+    });
 }
 
 /// Mouse and keys to camera.

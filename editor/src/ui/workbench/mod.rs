@@ -29,6 +29,8 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
+use lightbench::script::{Ray, SceneEvent};
+use lightbench::world::glam::Vec3;
 
 use self::camera::CameraRig;
 use self::clock::Clock;
@@ -327,15 +329,36 @@ impl Workbench {
         };
         let result = scene.update(self.clock.time(), step);
         self.timings.stepped(scene.system_times());
+        let still_moves = scene.moves();
         for line in scene.take_log() {
             self.log.add(Level::Script, Some(line.place), line.text);
         }
         if let Err(problem) = result {
             self.log.problem(&problem);
             self.scenes.set_problems(Some(Problems(vec![problem])));
-            self.clock.playing = false;
+            // One behaviour may fail and the others go on.
+            self.clock.playing &= still_moves;
         }
         self.canvas.invalidate();
+    }
+
+    /// Tells the scene's scripts what happens in the viewport.
+    pub fn happen(&mut self, event: SceneEvent) {
+        if let Some(scene) = self.scenes.scene_mut() {
+            scene.happen(event);
+        }
+    }
+
+    /// Tells them of a click at shares of the picture's width and height, from the upper left.
+    pub fn click(&mut self, share: [f32; 2], aspect: f32) {
+        let view = self.camera.view();
+        let to_world = (view.projection(aspect) * view.view).inverse();
+        let ndc = Vec3::new(2.0 * share[0] - 1.0, 1.0 - 2.0 * share[1], 1.0);
+        // Depth is reversed: 1 is the near plane.
+        let near = to_world.project_point3(ndc);
+        let origin = view.view.inverse().transform_point3(Vec3::ZERO);
+        let direction = near - origin;
+        self.happen(SceneEvent::Click(Ray { origin, direction }));
     }
 
     fn follow_camera(&mut self) {

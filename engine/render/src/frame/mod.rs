@@ -8,6 +8,7 @@ mod layers;
 mod lights;
 mod object_lights;
 mod objects;
+mod reach;
 mod shadows;
 
 use glam::{Mat4, Vec3};
@@ -23,6 +24,7 @@ use crate::variant::{Variant, Variants};
 use crate::view::View;
 use crate::volumes::{self, Marking, VolumeDraw, VolumeKind};
 use objects::Objects;
+use reach::{Pairs, Reach};
 
 pub use shadows::{NO_VIEW, ShadowKey, ShadowList, ViewDraws};
 
@@ -101,6 +103,11 @@ pub struct Frame {
     /// Rows of the objects that a shadow view sees.
     seen: Vec<u32>,
     order: Vec<objects::Entry>,
+    /// Finds the lights of an object.
+    reach: Reach,
+    /// The lights of one object, and those of all that are drawn once for each group of lights.
+    found: Vec<u32>,
+    pairs: Pairs,
     kinds: Vec<Chosen>,
     /// Where the lists of all lights and of ambient ones begin and how long they are, once made.
     shared_lights: [Option<(u32, u32)>; 2],

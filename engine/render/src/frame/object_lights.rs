@@ -1,9 +1,7 @@
 //! The lights of each object, and objects drawn again for each group of lights.
 
-use glam::Vec3;
-use lightbench_world::WorldBounds;
-
 use super::objects::Objects;
+use super::reach::Space;
 use super::{Frame, ObjectList, Step};
 use crate::description::{ObjectLights, Repeat};
 use crate::gpu_data::LightData;
@@ -26,11 +24,7 @@ impl Frame {
             ObjectLights::Gathered => {
                 let first = self.object_lights.len() as u32;
                 let space = Space::of(objects, row);
-                for (index, light) in lights.iter().enumerate() {
-                    if space.is_reached(light) {
-                        self.object_lights.push(index as u32);
-                    }
-                }
+                self.reach.find(&space, lights, &mut self.object_lights);
                 (first, self.object_lights.len() as u32 - first)
             }
         }
@@ -57,47 +51,47 @@ impl Frame {
 
     /// Fills a list once for each group of the lights that the view shows, ambient ones left out.
     pub(super) fn repeat(&mut self, list: &mut ObjectList, repeat: Repeat, objects: &Objects<'_>) {
-        let order = std::mem::take(&mut self.order);
+        let lights = objects.lights;
         let shown = |light: &LightData| {
             light.kind != AMBIENT && volumes::volume(light, 0, objects.view, true).is_some()
         };
-        let mut next = 0;
-        while next < objects.lights.len() {
-            // The group: so many of the shown lights from here on.
-            let begin = next;
-            let mut taken = 0;
-            while next < objects.lights.len() && taken < repeat.lights {
-                taken += u32::from(shown(&objects.lights[next]));
-                next += 1;
-            }
-            let group = begin..next;
+        let mut pairs = std::mem::take(&mut self.pairs);
+        pairs.begin(lights, repeat.lights as usize, shown);
+        let order = std::mem::take(&mut self.order);
+        self.reach.fill(lights, |index| pairs.is_shown(index));
+        for (at, entry) in order.iter().enumerate() {
+            self.found.clear();
+            let space = Space::of(objects, entry.row);
+            self.reach.find(&space, lights, &mut self.found);
+            pairs.add(at as u32, &self.found);
+        }
+        pairs.sort();
+        for group in 0..pairs.groups() {
             let first_draw = list.draws.len();
-            for entry in &order {
-                let space = Space::of(objects, entry.row);
+            for of_object in pairs.of_group(group).chunk_by(|a, b| a.object == b.object) {
                 let first = self.object_lights.len() as u32;
-                for index in group.clone() {
-                    let light = &objects.lights[index];
-                    if shown(light) && space.is_reached(light) {
-                        self.object_lights.push(index as u32);
-                    }
-                }
-                let count = self.object_lights.len() as u32 - first;
-                if count > 0 {
-                    self.draw(&mut list.draws, first_draw, entry, (first, count));
-                }
+                let lights = of_object.iter().map(|pair| pair.light);
+                self.object_lights.extend(lights);
+                let entry = &order[of_object[0].object as usize];
+                let lights = (first, of_object.len() as u32);
+                self.draw(&mut list.draws, first_draw, entry, lights);
             }
             if list.draws.len() > first_draw {
-                let lights = group
-                    .clone()
-                    .map(|index| &objects.lights[index])
-                    .filter(|light| shown(light));
+                let members = pairs.members(group);
                 let scissor = repeat.scissor.then(|| {
-                    lights.fold([1.0_f32, 1.0, 0.0, 0.0], |[l, t, r, b], light| {
-                        let [left, top, right, bottom] = volumes::rectangle(light, objects.view);
-                        [l.min(left), t.min(top), r.max(right), b.max(bottom)]
-                    })
+                    let light = |index: &u32| &lights[*index as usize];
+                    let rectangles = members
+                        .iter()
+                        .map(|index| volumes::rectangle(light(index), objects.view));
+                    rectangles.fold(
+                        [1.0_f32, 1.0, 0.0, 0.0],
+                        |[l, t, r, b], [left, top, right, bottom]| {
+                            [l.min(left), t.min(top), r.max(right), b.max(bottom)]
+                        },
+                    )
                 });
-                let mark = repeat.stencil.then(|| self.mark(group, objects)).flatten();
+                let mark = members.first().filter(|_| repeat.stencil);
+                let mark = mark.and_then(|light| self.mark(*light, objects));
                 list.steps.push(Step {
                     draws: first_draw..list.draws.len(),
                     scissor,
@@ -106,15 +100,13 @@ impl Frame {
             }
         }
         self.order = order;
+        self.pairs = pairs;
     }
 
-    /// The volume of the group's only light that is shown.
-    fn mark(&mut self, group: std::ops::Range<usize>, objects: &Objects<'_>) -> Option<VolumeDraw> {
-        let found = group
-            .filter(|&index| objects.lights[index].kind != AMBIENT)
-            .find_map(|index| {
-                volumes::volume(&objects.lights[index], index as u32, objects.view, true)
-            })?;
+    /// The volume of a light, to be marked in stencil.
+    fn mark(&mut self, light: u32, objects: &Objects<'_>) -> Option<VolumeDraw> {
+        let data = &objects.lights[light as usize];
+        let found = volumes::volume(data, light, objects.view, true)?;
         let at = self.volumes.len() as u32;
         self.volumes.push(found.data);
         Some(VolumeDraw {
@@ -123,29 +115,5 @@ impl Frame {
             array: 0,
             marking: Marking::Scheme,
         })
-    }
-}
-
-/// The box around an object.
-struct Space {
-    center: Vec3,
-    half: Vec3,
-}
-
-impl Space {
-    fn of(objects: &Objects<'_>, row: u32) -> Self {
-        let bounds = objects.world.columns::<WorldBounds>();
-        let b = bounds.slices();
-        let row = row as usize;
-        Self {
-            center: Vec3::new(b.x[row], b.y[row], b.z[row]),
-            half: Vec3::new(b.half_x[row], b.half_y[row], b.half_z[row]),
-        }
-    }
-
-    /// Distance from the light to the box, by clamping (Arvo 1990, Graphics Gems).
-    fn is_reached(&self, light: &LightData) -> bool {
-        let outside = ((light.position - self.center).abs() - self.half).max(Vec3::ZERO);
-        !volumes::is_bounded(light) || outside.length_squared() < light.range * light.range
     }
 }

@@ -5,7 +5,7 @@ use lightbench_assets::{Assets, Material, ReflectionModel, ReflectionModels};
 use lightbench_world::{MaterialId, MeshId, MeshRenderer, World, WorldBounds};
 
 use super::{Frame, ListKey, MeshDraw, Step, ViewVolume};
-use crate::description::{DrawList, DrawOrder};
+use crate::description::{DrawList, DrawOrder, ObjectLights};
 use crate::gpu_data::{DrawnObject, InstanceData, LightData};
 use crate::variant::Variant;
 
@@ -45,6 +45,9 @@ impl Frame {
         match key.repeat {
             Some(repeat) => self.repeat(&mut list, repeat, objects),
             None => {
+                if key.lights == ObjectLights::Gathered && !self.order.is_empty() {
+                    self.reach.fill(objects.lights, |_| true);
+                }
                 let order = std::mem::take(&mut self.order);
                 for entry in &order {
                     let lights = self.lights_of(key.lights, entry.row, objects);

@@ -17,7 +17,7 @@ use lightbench_assets::files::Files;
 use lightbench_render::inspect::{FirstInvalid, Part, PixelValue, Shown};
 use lightbench_render::{PipelineDesc, Problems, TargetImage};
 
-use crate::host::{Extras, Host, find};
+use crate::host::{Extras, Host, Variables, find};
 use crate::limits::Limits;
 use crate::log::LogLine;
 use crate::names::Names;
@@ -105,6 +105,7 @@ fn host(
                 made = Some(bench);
             },
             globals: Vec::new(),
+            variables: Variables::default(),
             reuse: Reuse::default(),
         },
     );

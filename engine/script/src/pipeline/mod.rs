@@ -14,7 +14,7 @@ use lightbench_assets::files::{Files, Origin};
 use lightbench_render::{PipelineDesc, Problem, Problems};
 use rhai::AST;
 
-use crate::host::{Extras, Host, find, stem_in};
+use crate::host::{Extras, Host, Variables, find, stem_in};
 use crate::limits::Limits;
 use crate::names::Names;
 use crate::settings::Settings;
@@ -71,6 +71,7 @@ impl Workshop {
             Extras {
                 register: &mut |api, _, _| builder::register(api, &made),
                 globals: Vec::new(),
+                variables: Variables::default(),
                 reuse: Reuse::default(),
             },
         );

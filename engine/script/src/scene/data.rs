@@ -9,6 +9,8 @@ use lightbench_assets::{Assets, MaterialId, Mesh, MeshId, Progress, Shared};
 use lightbench_world::glam::Vec3;
 use lightbench_world::{Entity, Name, Stored, Transform, World};
 
+use super::behaviours::{AtWork, Message, Starting};
+use super::input::Input;
 use super::materials::Material;
 use super::models::Models;
 use super::recipes::Recipes;
@@ -39,6 +41,14 @@ pub(super) struct Data {
     pub(super) recipes: Recipes,
     /// Models that were read.
     pub(super) models: Models,
+    /// What happens outside.
+    pub(super) input: Input,
+    /// Messages that behaviours will be told.
+    pub(super) messages: Vec<Message>,
+    /// Whose function is being called.
+    pub(super) at_work: AtWork,
+    /// The behaviour whose file is being run.
+    pub(super) starting: Option<Starting>,
     /// Points that entities stay turned to when they move.
     pub(super) aims: HashMap<Entity, Vec3>,
     /// The materials that scripts hold, so that one that is asked for again is the same.
@@ -77,6 +87,10 @@ impl Stage {
             progress: progress.clone(),
             recipes: Recipes::default(),
             models: Models::default(),
+            input: Input::default(),
+            messages: Vec::new(),
+            at_work: AtWork::default(),
+            starting: None,
             aims: HashMap::new(),
             materials: HashMap::new(),
             made: Vec::new(),

@@ -48,7 +48,7 @@ pub(super) fn setter(
     body: impl Fn(&mut Data, Entity, &Arguments) -> Result<(), Mistake> + Send + Sync + 'static,
 ) {
     let stage = stage.clone();
-    api.setter(name, move |entity: &mut Entity, arguments| {
+    api.handle_setter(name, move |entity: &Entity, arguments| {
         body(&mut stage.lock(), *entity, arguments)
     });
 }

@@ -1,5 +1,6 @@
 //! Scene files: `scripts/scenes/*.rhai` build worlds and move them, `*.scene` hold them.
 
+mod behaviours;
 mod bounds;
 mod cameras;
 mod columns;
@@ -7,11 +8,13 @@ mod data;
 mod entities;
 mod faces;
 mod fields;
+mod input;
 mod lights;
 mod list;
 mod materials;
 mod models;
 mod motion;
+mod picking;
 mod recipes;
 mod reflection;
 mod saved;
@@ -31,7 +34,7 @@ use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, Progress};
 use lightbench_render::{Place, Problem, Problems};
 use lightbench_world::systems::{FrameSystems, update_computed};
-use lightbench_world::{Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
+use lightbench_world::{Behaviour, Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
 use rhai::{AST, Dynamic, EvalAltResult, Module, Scope};
 
 use crate::host::{Extras, Host, find};
@@ -39,11 +42,15 @@ use crate::limits::Limits;
 use crate::log::LogLine;
 use crate::names::Names;
 use crate::parameters::{self, SceneParameter, undeclared};
-use crate::settings::Settings;
+use crate::settings::{SettingValue, Settings};
+use behaviours::{AtWork, Behaviours};
 use data::Stage;
 use saved::Textures;
 
+pub use behaviours::{BEHAVIOURS, BehaviourInfo};
+pub use input::SceneEvent;
 pub use list::{SceneEntry, list_scenes};
+pub use picking::Ray;
 pub use saved::EXTENSION as SCENE_EXTENSION;
 
 /// The folder of the scene files.
@@ -64,6 +71,7 @@ pub struct Scene {
     read: Read,
     /// Calls `update`, where the script has it.
     update: Option<AST>,
+    behaviours: Behaviours,
     /// Whether an update failed; the script is not called again.
     stopped: bool,
     /// What moves and computes beside the script.
@@ -146,6 +154,7 @@ pub fn load_scene_within(
     scene.finish()?;
     // What is animated stands where it is at the beginning.
     scene.run_systems(0.0, 0.0);
+    scene.start_behaviours()?;
     Ok(scene)
 }
 
@@ -173,6 +182,7 @@ fn host(
     progress: &Progress,
 ) -> (Host, Stage, Textures) {
     let mut stage = None;
+    let at_work = AtWork::default();
     let defined = Textures::default();
     let host = Host::new(
         files,
@@ -181,10 +191,15 @@ fn host(
             register: &mut |api, watch, log| {
                 watch.stop_with(progress);
                 let made = Stage::new(files, reuse, settings, limits, watch, log, progress);
+                made.lock().at_work = at_work.clone();
                 let stage_of_parameters = made.clone();
                 parameters::register(api, move |arguments| {
                     let data = &mut *stage_of_parameters.lock();
-                    parameters::declare(&mut data.parameters, &data.settings, arguments)
+                    let (parameters, settings) = match &mut data.starting {
+                        Some(starting) => (&mut starting.parameters, &starting.settings),
+                        None => (&mut data.parameters, &data.settings),
+                    };
+                    parameters::declare(parameters, settings, arguments)
                 });
                 entities::register(api, &made);
                 motion::register(api, &made);
@@ -196,6 +211,9 @@ fn host(
                 models::register(api, &made);
                 lights::register(api, &made);
                 cameras::register(api, &made);
+                behaviours::register(api, &made);
+                input::register(api, &made);
+                picking::register(api, &made);
                 state::register(api);
                 fields::register(api, &made);
                 tags::register(api, &made);
@@ -204,6 +222,7 @@ fn host(
                 stage = Some(made);
             },
             globals: vec![("state", Dynamic::from(state::State::default()))],
+            variables: at_work.variables(),
             reuse: reuse.clone(),
         },
     );
@@ -245,6 +264,7 @@ fn update_call(host: &Host, path: &str) -> Result<Option<AST>, Problem> {
 
 impl Scene {
     fn new(path: String, host: Host, stage: Stage, update: Option<AST>) -> Self {
+        let at_work = stage.lock().at_work.clone();
         Self {
             world: World::new(),
             assets: Assets::new(),
@@ -254,6 +274,7 @@ impl Scene {
             stage,
             read: Read::default(),
             update,
+            behaviours: Behaviours::new(at_work),
             stopped: false,
             systems: FrameSystems::default(),
             script_time: None,
@@ -291,13 +312,63 @@ impl Scene {
     /// the same steps give the same scene, however long they take.
     ///
     /// # Errors
-    /// What went wrong in the script, once: after an error the script is not called again, what it
-    /// had changed stays, and the systems go on.
+    /// What went wrong in a script, once: after an error that script is not called again, what it had
+    /// changed stays, and all others and the systems go on. Where several went wrong, the next steps
+    /// tell of the others.
     pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
-        let (took, result) = SystemTime::of("script", || self.call_update(time, dt));
-        self.script_time = self.update.is_some().then_some(took);
+        let (took, result) = SystemTime::of("script", || {
+            let result = self.call_update(time, dt);
+            self.swap();
+            let (host, stage) = (&mut self.host, &self.stage);
+            self.behaviours.step(host, stage, time, dt);
+            self.swap();
+            result
+        });
+        let scripted = self.update.is_some() || !self.behaviours.is_empty();
+        self.script_time = scripted.then_some(took);
         self.run_systems(time, dt);
-        result
+        result?;
+        self.behaviours.take_problem().map_or(Ok(()), Err)
+    }
+
+    /// Starts the behaviours of a scene that was made.
+    fn start_behaviours(&mut self) -> Result<(), Problems> {
+        self.swap();
+        self.behaviours.start_and_end(&mut self.host, &self.stage);
+        self.swap();
+        match self.behaviours.take_problem() {
+            Some(problem) => Err(problem.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Tells the scene what happens outside; scripts hear of it in the next step.
+    pub fn happen(&mut self, event: SceneEvent) {
+        self.stage.lock().input.happen(event);
+    }
+
+    /// The behaviours of its entities, in the order in which they began.
+    #[must_use]
+    pub fn behaviours(&self) -> Vec<BehaviourInfo> {
+        self.behaviours.list()
+    }
+
+    /// Sets a parameter of an entity's behaviour, which begins anew with the next step.
+    ///
+    /// # Errors
+    /// A sentence, where there is no such behaviour or parameter, or the value does not fit.
+    pub fn set_behaviour(
+        &mut self,
+        entity: Entity,
+        name: &str,
+        value: &SettingValue,
+    ) -> Result<(), String> {
+        self.swap();
+        let done = self
+            .behaviours
+            .set_parameter(&mut self.stage.lock(), entity, name, value);
+        self.swap();
+        done
     }
 
     fn run_systems(&mut self, time: f64, dt: f64) {
@@ -375,6 +446,7 @@ impl Scene {
     #[must_use]
     pub fn moves(&self) -> bool {
         self.has_update()
+            || !self.world.columns::<Behaviour>().is_empty()
             || !self.world.columns::<Velocity>().is_empty()
             || !self.world.columns::<RigidAnimation>().is_empty()
     }

@@ -56,8 +56,8 @@ fn system_table(w: &mut Writer, c: &Comparison) {
     }
     w.leaf("h3", &[], "Systems of the world");
     let text = "Before a frame is drawn, the script and the systems move the world, changed rows \
-                are copied, and what the camera sees is extracted. Each moment of the scene is \
-                reached once and drawn by every pipeline.";
+                are copied, and what the camera sees is extracted; then the passes are recorded. Each \
+                moment of the scene is reached once and drawn by every pipeline.";
     w.leaf("p", &[("class", "note")], text);
     let mut columns = vec![words("System")];
     for p in &c.pipelines {

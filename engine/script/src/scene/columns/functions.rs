@@ -40,7 +40,7 @@ fn function(
         mixtures.extend(first.map(|first| vec![first, column]));
     }
     let meter = meter.clone();
-    api.typed(None, form, &mixtures, about, move |a| {
+    api.typed(form, &mixtures, about, move |a| {
         meter.check()?;
         body(a).map(Operand::into_script)
     });

@@ -1,0 +1,110 @@
+//! The functions of a behaviour that are called when something happens.
+
+use lightbench_render::{Place, Problem};
+use lightbench_world::glam::DVec3;
+use rhai::{AST, Dynamic, Scope};
+
+use crate::host::Host;
+
+/// Something that a behaviour is told of.
+pub(super) enum Event {
+    /// The entity has got the behaviour.
+    Init,
+    /// A step that ends at `time`, both in seconds.
+    Update { time: f64, dt: f64 },
+    /// A key went down.
+    Key(String),
+    /// The entity was clicked at a point in the world.
+    Click(DVec3),
+    /// Another behaviour, or the scene, sent something.
+    Message(String, Dynamic),
+}
+
+/// The functions: how each is named, and what it may take.
+const HANDLERS: [(&str, &[&str]); 5] = [
+    ("init", &[]),
+    ("update", &["time", "dt"]),
+    ("on_key", &["key"]),
+    ("on_click", &["point"]),
+    ("on_message", &["name", "value"]),
+];
+
+impl Event {
+    fn index(&self) -> usize {
+        match self {
+            Self::Init => 0,
+            Self::Update { .. } => 1,
+            Self::Key(_) => 2,
+            Self::Click(_) => 3,
+            Self::Message(..) => 4,
+        }
+    }
+
+    /// The arguments, under the names with which they are called.
+    pub(super) fn scope(&self) -> Scope<'static> {
+        let mut scope = Scope::new();
+        match self {
+            Self::Init => {}
+            Self::Update { time, dt } => {
+                scope.push("time", *time).push("dt", *dt);
+            }
+            Self::Key(key) => {
+                scope.push("key", key.clone());
+            }
+            Self::Click(point) => {
+                scope.push("point", *point);
+            }
+            Self::Message(name, value) => {
+                scope.push("name", name.clone());
+                scope.push_dynamic("value", value.clone());
+            }
+        }
+        scope
+    }
+}
+
+/// What calls the functions that a behaviour has.
+#[derive(Default)]
+pub(super) struct Handlers([Option<AST>; HANDLERS.len()]);
+
+/// The name of the module of a slot. No script can spell it.
+pub(super) fn module(slot: usize) -> String {
+    format!("behaviour_{slot}")
+}
+
+impl Handlers {
+    /// Looks for the functions in a file that was read.
+    pub(super) fn find(host: &Host, path: &str, module: &str) -> Result<Self, Problem> {
+        let source = host.compiler.sources.get(path).unwrap_or_default();
+        let mut found = Self::default();
+        for (slot, (name, takes)) in found.0.iter_mut().zip(HANDLERS) {
+            let Some(function) = source.functions.iter().find(|f| f.name == name) else {
+                continue;
+            };
+            let count = function.arguments.len();
+            if count > takes.len() {
+                let at = Place::new(path, function.line, function.column);
+                let message = format!("`{name}` takes {count} arguments");
+                let hint = format!("it is written `fn {name}({}) {{ … }}`", takes.join(", "));
+                return Err(Problem::new(at, message)
+                    .with_hint(hint)
+                    .with_source(&source.text));
+            }
+            let mut scope = Scope::new();
+            for argument in takes {
+                scope.push(*argument, ());
+            }
+            let call = format!("{module}::{name}({})", takes[..count].join(", "));
+            // Without strictness: the module is registered after the file has run.
+            let call = host
+                .compile_loosely(&scope, &call)
+                .map_err(|error| Problem::new(Place::file(path), error))?;
+            *slot = Some(call);
+        }
+        Ok(found)
+    }
+
+    pub(super) fn of(&self, event: &Event) -> Option<&AST> {
+        self.0[event.index()].as_ref()
+    }
+}

@@ -1,0 +1,369 @@
+//! Behaviours: scripts that belong to an entity, each with its own parameters and its own state.
+//!
+//! A behaviour is a file, `scripts/behaviours/NAME.rhai`. For each entity that has it, the file is run
+//! once, when the entity gets it: that declares its parameters and gives its `state` first values. From
+//! then on its functions are called: `init` once, `update` in each step, `on_key`, `on_click` and
+//! `on_message` when something happens. All of them see the entity as `me`.
+
+mod functions;
+mod handlers;
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use lightbench_render::Problem;
+use lightbench_render::problem::Problems;
+use lightbench_world::{Behaviour, Entity, Parameters, Value};
+use rhai::{Dynamic, Module, Scope};
+
+use super::data::{Data, Stage};
+use super::state::State;
+use crate::api::Mistake;
+use crate::host::{Host, Variables};
+use crate::parameters::{SceneParameter, undeclared};
+use crate::settings::{SettingValue, Settings};
+pub(super) use functions::register;
+use handlers::{Event, Handlers};
+
+/// The folder of the behaviours.
+pub const BEHAVIOURS: &str = "scripts/behaviours";
+
+/// What a behaviour's file declares while it runs.
+#[derive(Default)]
+pub(super) struct Starting {
+    pub(super) settings: Settings,
+    pub(super) parameters: Vec<SceneParameter>,
+}
+
+/// A message on its way.
+#[derive(Clone, Debug)]
+pub(super) struct Message {
+    /// To whom; to all where there is none.
+    pub(super) to: Option<Entity>,
+    pub(super) name: String,
+    pub(super) value: Dynamic,
+}
+
+/// The behaviour at work, as its functions see it.
+#[derive(Clone, Default)]
+pub(super) struct AtWork(Arc<Mutex<Option<(Entity, State)>>>);
+
+impl AtWork {
+    fn set(&self, now: Option<(Entity, State)>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = now;
+    }
+
+    fn get(&self) -> Option<(Entity, State)> {
+        let now = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        now.clone()
+    }
+
+    /// `me`, and the `state` of a behaviour in place of the scene's.
+    pub(super) fn variables(&self) -> Variables {
+        let at_work = self.clone();
+        Variables {
+            names: vec!["me"],
+            find: Box::new(move |name| match (name, at_work.get()) {
+                ("me", Some((entity, _))) => Ok(Some(Dynamic::from(entity))),
+                ("me", None) => Err(Mistake::new(
+                    "`me` is the entity of a behaviour, and the scene's own script has none",
+                )
+                .with_hint(format!("behaviours lie in {BEHAVIOURS}/"))),
+                ("state", Some((_, state))) => Ok(Some(Dynamic::from(state))),
+                _ => Ok(None),
+            }),
+        }
+    }
+}
+
+/// A behaviour of one entity.
+struct Instance {
+    entity: Entity,
+    /// What the component said when it was started.
+    component: Behaviour,
+    parameters: Vec<SceneParameter>,
+    state: State,
+    handlers: Handlers,
+    slot: usize,
+    /// After an error it is not called again.
+    stopped: bool,
+}
+
+/// What somebody outside sees of a behaviour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BehaviourInfo {
+    /// The entity that has it.
+    pub entity: Entity,
+    /// The path of its file.
+    pub path: String,
+    /// What can be set, with the values in force.
+    pub parameters: Vec<SceneParameter>,
+    /// Whether an error stopped it.
+    pub stopped: bool,
+}
+
+/// The behaviours of a scene, in the order in which they were started.
+#[derive(Default)]
+pub(super) struct Behaviours {
+    instances: Vec<Instance>,
+    at_work: AtWork,
+    /// Modules that no instance uses any more.
+    free: Vec<usize>,
+    slots: usize,
+    /// Errors that nobody has been told of yet.
+    problems: Vec<Problem>,
+}
+
+impl Behaviours {
+    pub(super) fn new(at_work: AtWork) -> Self {
+        Self {
+            at_work,
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.instances.is_empty()
+    }
+
+    pub(super) fn list(&self) -> Vec<BehaviourInfo> {
+        let info = |instance: &Instance| BehaviourInfo {
+            entity: instance.entity,
+            path: instance.component.script.clone(),
+            parameters: instance.parameters.clone(),
+            stopped: instance.stopped,
+        };
+        self.instances.iter().map(info).collect()
+    }
+
+    /// The next error that nobody has been told of.
+    pub(super) fn take_problem(&mut self) -> Option<Problem> {
+        (!self.problems.is_empty()).then(|| self.problems.remove(0))
+    }
+
+    /// One step: starts what is new, ends what is gone, tells what happened, and updates all.
+    pub(super) fn step(&mut self, host: &mut Host, stage: &Stage, time: f64, dt: f64) {
+        self.start_and_end(host, stage);
+        if self.instances.is_empty() {
+            return;
+        }
+        let events = stage.lock().input.take();
+        for event in events {
+            match event {
+                super::input::Happened::Key(key) => {
+                    self.tell_all(host, stage, &Event::Key(key));
+                }
+                super::input::Happened::Click(ray) => {
+                    let hit = super::picking::pick(&stage.lock(), ray);
+                    if let Some(hit) = hit {
+                        self.tell(host, stage, hit.entity, &Event::Click(hit.point));
+                    }
+                }
+            }
+        }
+        self.tell_all(host, stage, &Event::Update { time, dt });
+        // What is sent while messages are delivered goes with the next step, so that two behaviours
+        // that answer each other do not hold it up.
+        let messages = std::mem::take(&mut stage.lock().messages);
+        for message in messages {
+            let event = Event::Message(message.name, message.value);
+            match message.to {
+                Some(entity) => self.tell(host, stage, entity, &event),
+                None => self.tell_all(host, stage, &event),
+            }
+        }
+    }
+
+    /// Starts the behaviours of entities that have got one, and ends those of entities that lost it,
+    /// or have another now.
+    pub(super) fn start_and_end(&mut self, host: &mut Host, stage: &Stage) {
+        let wanted: Vec<(Entity, Behaviour)> = {
+            let data = stage.lock();
+            let columns = data.world.columns::<Behaviour>();
+            if columns.is_empty() && self.instances.is_empty() {
+                return;
+            }
+            let entities = columns.entities().iter().copied();
+            entities
+                .filter_map(|entity| Some((entity, data.world.get(entity)?)))
+                .collect()
+        };
+        let wanted_of: HashMap<Entity, &Behaviour> =
+            wanted.iter().map(|(entity, row)| (*entity, row)).collect();
+        let free = &mut self.free;
+        self.instances.retain(|instance| {
+            let kept = wanted_of.get(&instance.entity).is_some_and(|row| {
+                (&row.script, &row.parameters)
+                    == (&instance.component.script, &instance.component.parameters)
+            });
+            if !kept {
+                free.push(instance.slot);
+            }
+            kept
+        });
+        for instance in &mut self.instances {
+            if let Some(row) = wanted_of.get(&instance.entity) {
+                instance.component.enabled = row.enabled;
+            }
+        }
+        let known: HashMap<Entity, ()> = self
+            .instances
+            .iter()
+            .map(|instance| (instance.entity, ()))
+            .collect();
+        for (entity, component) in wanted {
+            if known.contains_key(&entity) {
+                continue;
+            }
+            let slot = self.free.pop().unwrap_or_else(|| {
+                self.slots += 1;
+                self.slots - 1
+            });
+            match self.start(host, stage, entity, component, slot) {
+                Ok(instance) => {
+                    self.instances.push(instance);
+                    self.tell(host, stage, entity, &Event::Init);
+                }
+                Err(problems) => self.problems.extend(problems.0),
+            }
+        }
+    }
+
+    /// Runs a behaviour's file for an entity. One that fails is there, and is not called.
+    fn start(
+        &self,
+        host: &mut Host,
+        stage: &Stage,
+        entity: Entity,
+        component: Behaviour,
+        slot: usize,
+    ) -> Result<Instance, Problems> {
+        let state = State::default();
+        let mut instance = Instance {
+            entity,
+            parameters: Vec::new(),
+            state: state.clone(),
+            handlers: Handlers::default(),
+            slot,
+            stopped: true,
+            component,
+        };
+        let path = instance.component.script.clone();
+        let settings = settings(&instance.component.parameters);
+        let mut run = || -> Result<(), Problems> {
+            let ast = host.load(&path)?;
+            let module = handlers::module(slot);
+            instance.handlers = Handlers::find(host, &path, &module)?;
+            stage.lock().starting = Some(Starting {
+                settings: settings.clone(),
+                parameters: Vec::new(),
+            });
+            self.at_work.set(Some((entity, state.clone())));
+            host.watch.start(host.compiler.limits.load_time);
+            let made = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine);
+            self.at_work.set(None);
+            let starting = stage.lock().starting.take().unwrap_or_default();
+            let made = made.map_err(|error| host.compiler.explain(&error, &path))?;
+            let problems = undeclared("behaviour", &path, &starting.parameters, &settings);
+            if !problems.is_empty() {
+                return Err(Problems(problems));
+            }
+            instance.parameters = starting.parameters;
+            host.engine.register_static_module(module, made.into());
+            instance.stopped = false;
+            Ok(())
+        };
+        match run() {
+            Ok(()) => Ok(instance),
+            Err(problems) => Err(problems),
+        }
+    }
+
+    fn tell_all(&mut self, host: &Host, stage: &Stage, event: &Event) {
+        for index in 0..self.instances.len() {
+            self.call(host, stage, index, event);
+        }
+    }
+
+    fn tell(&mut self, host: &Host, stage: &Stage, entity: Entity, event: &Event) {
+        let found = self.instances.iter().position(|i| i.entity == entity);
+        if let Some(index) = found {
+            self.call(host, stage, index, event);
+        }
+    }
+
+    /// Calls a behaviour's function for an event, where it has one. An error stops this behaviour and
+    /// no other.
+    fn call(&mut self, host: &Host, stage: &Stage, index: usize, event: &Event) {
+        let instance = &mut self.instances[index];
+        if instance.stopped || !instance.component.enabled {
+            return;
+        }
+        let Some(call) = instance.handlers.of(event) else {
+            return;
+        };
+        // One that a behaviour before it has removed.
+        if !stage.lock().world.contains(instance.entity) {
+            return;
+        }
+        let now = (instance.entity, instance.state.clone());
+        self.at_work.set(Some(now));
+        host.watch.start(host.compiler.limits.update_time);
+        let result = host
+            .engine
+            .eval_ast_with_scope::<Dynamic>(&mut event.scope(), call);
+        self.at_work.set(None);
+        if let Err(error) = result {
+            instance.stopped = true;
+            let path = &instance.component.script;
+            self.problems.push(host.compiler.explain(&error, path));
+        }
+    }
+
+    /// Sets a parameter of an entity's behaviour, which starts it again.
+    pub(super) fn set_parameter(
+        &self,
+        data: &mut Data,
+        entity: Entity,
+        name: &str,
+        value: &SettingValue,
+    ) -> Result<(), String> {
+        let instance = self.instances.iter().find(|i| i.entity == entity);
+        let instance = instance.ok_or("the entity has no behaviour")?;
+        let parameter = instance.parameters.iter().find(|p| p.name == name);
+        let parameter = parameter.ok_or_else(|| format!("there is no parameter `{name}`"))?;
+        let value = parameter.parse(value)?;
+        let mut component = instance.component.clone();
+        let values = &mut component.parameters.0;
+        let value = match value {
+            SettingValue::Text(text) => Value::Text(text),
+            SettingValue::Number(number) => Value::Float(number as f32),
+            SettingValue::Switch(on) => Value::Bool(on),
+        };
+        match values.iter_mut().find(|(known, _)| known == name) {
+            Some((_, old)) => *old = value,
+            None => values.push((name.to_owned(), value)),
+        }
+        data.insert(entity, component)
+            .map_err(|mistake| mistake.message)
+    }
+}
+
+/// The component's values as settings.
+fn settings(parameters: &Parameters) -> Settings {
+    let mut settings = Settings::new();
+    for (name, value) in &parameters.0 {
+        match value {
+            Value::Bool(on) => settings.set(name, *on),
+            Value::Int(number) => settings.set(name, *number as f64),
+            // As it is written, and not with the digits that 32 bits add.
+            Value::Float(number) => settings.set(name, number.to_string()),
+            Value::Text(text) => settings.set(name, text.clone()),
+            _ => {}
+        }
+    }
+    settings
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+//! What happens outside of a scene: keys, the pointer, clicks.
+
+use std::collections::BTreeSet;
+
+use rhai::{Array, Dynamic};
+
+use super::data::Stage;
+use super::picking::Ray;
+use crate::api::Api;
+
+/// Something that happens outside of a scene, for [`Scene::happen`](super::Scene::happen).
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneEvent {
+    /// A key went down; its name in lower case, as in `a`, `7`, `space`, `left`, `enter`.
+    KeyDown(String),
+    /// A key went up.
+    KeyUp(String),
+    /// Where the pointer is: shares of the picture's width and height, from the upper left. `None`
+    /// where it has left the picture.
+    Pointer(Option<[f32; 2]>),
+    /// A click into the picture, as the line of sight that it is on.
+    Click(Ray),
+    /// The scene is looked at no more: all keys are up.
+    Leave,
+}
+
+/// What behaviours are told of.
+#[derive(Clone, Debug)]
+pub(super) enum Happened {
+    Key(String),
+    Click(Ray),
+}
+
+/// The keys that are down, the pointer, and what nobody was told yet.
+#[derive(Debug, Default)]
+pub(super) struct Input {
+    down: BTreeSet<String>,
+    pointer: Option<[f32; 2]>,
+    happened: Vec<Happened>,
+}
+
+/// More are dropped: nobody types so fast, and a scene that stands still would collect them.
+const MOST: usize = 256;
+
+impl Input {
+    pub(super) fn happen(&mut self, event: SceneEvent) {
+        match event {
+            SceneEvent::KeyDown(key) => {
+                if self.down.insert(key.clone()) && self.happened.len() < MOST {
+                    self.happened.push(Happened::Key(key));
+                }
+            }
+            SceneEvent::KeyUp(key) => {
+                self.down.remove(&key);
+            }
+            SceneEvent::Pointer(at) => self.pointer = at,
+            SceneEvent::Click(ray) => {
+                if self.happened.len() < MOST {
+                    self.happened.push(Happened::Click(ray));
+                }
+            }
+            SceneEvent::Leave => {
+                self.down.clear();
+                self.pointer = None;
+            }
+        }
+    }
+
+    pub(super) fn take(&mut self) -> Vec<Happened> {
+        std::mem::take(&mut self.happened)
+    }
+}
+
+pub(super) fn register(api: &mut Api, stage: &Stage) {
+    api.section("Keyboard and mouse");
+    let asked = stage.clone();
+    api.function(
+        "key_down(key)",
+        "Whether a key is down: a letter or digit as in `\"a\"`, or `space`, `enter`, `tab`, \
+         `escape`, `left`, `right`, `up` or `down`. No key is where no window is.",
+        move |a| Ok(asked.lock().input.down.contains(&a.text(0)?.to_lowercase())),
+    );
+    let asked = stage.clone();
+    api.function(
+        "keys_down()",
+        "The names of all keys that are down, in the order of the alphabet.",
+        move |_| {
+            let data = asked.lock();
+            let keys = data.input.down.iter().cloned().map(Dynamic::from);
+            Ok(keys.collect::<Array>())
+        },
+    );
+    let asked = stage.clone();
+    api.function(
+        "pointer()",
+        "Where the mouse is in the picture: an array of two numbers from 0 to 1, from the left and \
+         from the top; `()` where it is elsewhere.",
+        move |_| {
+            let pointer = asked.lock().input.pointer;
+            Ok(pointer.map_or(Dynamic::UNIT, |at| {
+                Dynamic::from_array(at.map(|v| Dynamic::from(f64::from(v))).to_vec())
+            }))
+        },
+    );
+}
