@@ -167,6 +167,30 @@ impl<'a> Api<'a> {
         self.raw(&name, &types, entry, 1, body);
     }
 
+    /// Registers one form for several mixtures of types, each of which Rhai prefers to a form that
+    /// takes values of any type.
+    pub(crate) fn typed<R: Variant + Clone>(
+        &mut self,
+        form: &str,
+        mixtures: &[Vec<TypeId>],
+        about: &'static str,
+        body: impl Fn(&mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
+    ) {
+        let entry = Arc::new(Entry::new(None, form, false, about));
+        self.names.add(Entry::clone(&entry));
+        let body = Arc::new(body);
+        for types in mixtures {
+            let body = Arc::clone(&body);
+            self.raw(
+                &entry.name.clone(),
+                types,
+                Arc::clone(&entry),
+                0,
+                move |a| body(a),
+            );
+        }
+    }
+
     /// Registers writing to a property of what a handle stands for. The handle itself does not change,
     /// so that it may be a constant.
     pub(crate) fn handle_setter<T: ScriptType>(
@@ -280,16 +304,8 @@ impl Arguments<'_, '_, '_, '_> {
         if number.is_finite() {
             Ok(number)
         } else {
-            Err(Mistake::new(format!(
-                "`{}` of `{}` is {}: did something divide by zero?",
-                self.name(index),
-                self.entry.name,
-                if number.is_nan() {
-                    "not a number"
-                } else {
-                    "infinite"
-                },
-            )))
+            let what = format!("`{}` of `{}`", self.name(index), self.entry.name);
+            Err(not_finite(&what, number))
         }
     }
 
@@ -430,6 +446,18 @@ impl Arguments<'_, '_, '_, '_> {
             .get(index)
             .map_or(self.entry.name.as_str(), String::as_str)
     }
+}
+
+/// The mistake of a number that is none, or infinite.
+pub(crate) fn not_finite(what: &str, number: f64) -> Mistake {
+    Mistake::new(format!(
+        "{what} is {}: did something divide by zero?",
+        if number.is_nan() {
+            "not a number"
+        } else {
+            "infinite"
+        },
+    ))
 }
 
 /// A number, whether written `1` or `1.0`.

@@ -76,7 +76,7 @@ pub(crate) fn register(api: &mut Api) {
                 a.number_in(1, 0.0, 1.0)?,
                 a.number_in(2, 0.0, 1.0)?,
             );
-            Ok(decode(from_hsv(hue, saturation, value)))
+            Ok(hsv(hue, saturation, value))
         },
     );
     api.function(
@@ -134,6 +134,11 @@ fn from_hex(code: &str) -> Option<Color> {
     let channel = |at: usize| u8::from_str_radix(&digits[at..at + 2], 16).ok();
     let byte = |at: usize| channel(at).map(|byte| f64::from(byte) / 255.0);
     Some(decode(DVec3::new(byte(0)?, byte(2)?, byte(4)?)))
+}
+
+/// The colour of a hue in degrees, a saturation and a value.
+pub(crate) fn hsv(hue: f64, saturation: f64, value: f64) -> Color {
+    decode(from_hsv(hue, saturation, value))
 }
 
 /// Smith, "Color gamut transform pairs", SIGGRAPH 1978.

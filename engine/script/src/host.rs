@@ -257,7 +257,8 @@ fn take_away(engine: &mut Engine) {
         .register_fn("sleep", move |_: f64| no_clock());
 }
 
-/// Lets scripts use two words that Rhai keeps for itself: `spawn(…)`, and `.switch(…)` after a dot.
+/// Lets scripts use words that Rhai keeps for itself: `spawn(…)`, and `.switch(…)` and `.with(…)` after
+/// a dot.
 fn map_words(engine: &mut Engine) {
     let after_dot = AtomicBool::new(false);
     #[allow(deprecated)] // Rhai marks what may still change so; nothing is going away.
@@ -268,6 +269,7 @@ fn map_words(engine: &mut Engine) {
         );
         match token {
             Token::Reserved(word) if *word == "spawn" => Token::Identifier(word),
+            Token::Reserved(word) if *word == "with" && was_after_dot => Token::Identifier(word),
             Token::Switch if was_after_dot => Token::Identifier(Box::new("switch".into())),
             token => token,
         }

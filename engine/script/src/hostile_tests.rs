@@ -103,6 +103,17 @@ fn bombs() {
         "take more than 256 MiB together",
     );
     says("blob(2000000000)", "elements of arrays");
+    says("indices(2000000000)", "must be from 0 to 1000000");
+    says("random(1).floats(2000000000)", "must be from 0 to 1000000");
+    // A few calls that take as long as many.
+    says(
+        "let c = indices(1000000); loop { c = noise(c, c, c); }",
+        "a loop that never ends",
+    );
+    says(
+        "let i = 0; loop { state[\"k\" + i] = indices(1000000); i += 1; }",
+        "take more than 256 MiB together",
+    );
     says("loop { spawn(); }", "the scene has 10000 entities");
     says(
         "let s = sphere(1).segments(1024, 1024); loop { mesh(s); s.segments(1024, 1024); }",

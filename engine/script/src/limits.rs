@@ -146,6 +146,12 @@ impl Watch {
         self.loaded.store(true, Ordering::Relaxed);
     }
 
+    /// Whether the time is over. For single calls that work on much.
+    pub(crate) fn is_late(&self) -> bool {
+        let now = u64::try_from(self.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        now > self.deadline.load(Ordering::Relaxed)
+    }
+
     fn check(&self, operations: u64) -> Option<Stop> {
         let used = memory::live_bytes() - self.bytes_at_start.load(Ordering::Relaxed);
         if used > self.memory_bytes {
@@ -157,8 +163,7 @@ impl Watch {
             if !self.loaded.load(Ordering::Relaxed) && cancelled() {
                 return Some(Stop::Cancelled);
             }
-            let now = u64::try_from(self.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX);
-            if now > self.deadline.load(Ordering::Relaxed) {
+            if self.is_late() {
                 return Some(Stop::Time);
             }
         }

@@ -43,9 +43,10 @@ impl Arguments<'_, '_, '_, '_> {
 }
 
 /// A function of one number, by name.
-type Unary = (&'static str, &'static str, fn(f64) -> f64);
+pub(crate) type Unary = (&'static str, &'static str, fn(f64) -> f64);
 
-const UNARY: [Unary; 20] = [
+/// The functions of one number.
+pub(crate) const UNARY: [Unary; 20] = [
     ("sin(angle)", "The sine of an angle in radians.", f64::sin),
     ("cos(angle)", "The cosine of an angle in radians.", f64::cos),
     (
@@ -145,11 +146,7 @@ fn numbers(api: &mut Api) {
         "0 below `from`, 1 above `to`, and a soft way between.",
         |a| {
             let (from, to, x) = (a.number(0)?, a.number(1)?, a.number(2)?);
-            if from == to {
-                return Ok(if x < from { 0.0 } else { 1.0 });
-            }
-            let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-            Ok(t * t * (3.0 - 2.0 * t))
+            Ok(smoothstep(from, to, x))
         },
     );
     api.function(
@@ -160,6 +157,15 @@ fn numbers(api: &mut Api) {
             Ok(a.number(0)?.rem_euclid(period))
         },
     );
+}
+
+/// A soft step from 0 to 1.
+pub(crate) fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
+    if from == to {
+        return if x < from { 0.0 } else { 1.0 };
+    }
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 fn vectors(api: &mut Api) {

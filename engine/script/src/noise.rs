@@ -12,12 +12,7 @@ pub(crate) fn register(api: &mut Api) {
                 for (index, coordinate) in at.iter_mut().take(a.len()).enumerate() {
                     *coordinate = a.number(index)?;
                 }
-                // At whole numbers gradient noise is 0; off them in the missing directions, it is
-                // not 0 along a whole line.
-                for coordinate in at.iter_mut().skip(a.len()) {
-                    *coordinate = 0.37;
-                }
-                Ok(noise(at))
+                Ok(noise_along(&at[..a.len()]))
             },
         );
     }
@@ -27,17 +22,31 @@ pub(crate) fn register(api: &mut Api) {
         |a| {
             let at = [a.number(0)?, a.number(1)?, a.number(2)?];
             let octaves = a.whole(3, 1, 16)?;
-            let (mut sum, mut total, mut weight) = (0.0, 0.0, 1.0);
-            for octave in 0..octaves {
-                let scale = f64::from(1_u32 << octave);
-                sum +=
-                    weight * noise(at.map(|coordinate| coordinate * scale + octave as f64 * 17.3));
-                total += weight;
-                weight *= 0.5;
-            }
-            Ok(sum / total)
+            Ok(fractal_noise(at, octaves as u32))
         },
     );
+}
+
+/// Noise along one axis, in a plane or in space. At whole numbers gradient noise is 0; off them in the
+/// missing directions, it is not 0 along a whole line.
+pub(crate) fn noise_along(coordinates: &[f64]) -> f64 {
+    let mut at = [0.37; 3];
+    for (coordinate, given) in at.iter_mut().zip(coordinates) {
+        *coordinate = *given;
+    }
+    noise(at)
+}
+
+/// A sum of noises, each half as large and half as strong as the one before. At most 32 of them.
+pub(crate) fn fractal_noise(at: [f64; 3], octaves: u32) -> f64 {
+    let (mut sum, mut total, mut weight) = (0.0, 0.0, 1.0);
+    for octave in 0..octaves {
+        let scale = f64::from(1_u32 << octave);
+        sum += weight * noise(at.map(|coordinate| coordinate * scale + f64::from(octave) * 17.3));
+        total += weight;
+        weight *= 0.5;
+    }
+    sum / total
 }
 
 /// Gradient noise (Perlin, "Improving noise", SIGGRAPH 2002), with lattice gradients from a hash in

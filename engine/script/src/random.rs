@@ -11,7 +11,7 @@ use crate::api::{Api, Mistake, ScriptType};
 
 /// A row of random numbers. Copies in a script share the row.
 #[derive(Clone, Debug)]
-struct Random(Arc<Mutex<Pcg64>>);
+pub(crate) struct Random(Arc<Mutex<Pcg64>>);
 
 impl ScriptType for Random {
     const NAME: &'static str = "random";
@@ -32,7 +32,7 @@ impl Random {
     }
 
     /// Evenly from 0 up to, but not including, 1: the upper 53 bits.
-    fn float(&self) -> f64 {
+    pub(crate) fn float(&self) -> f64 {
         (self.lock().next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -49,9 +49,17 @@ impl Random {
     }
 
     /// A normal deviate (Box and Muller 1958).
-    fn normal(&self) -> f64 {
+    pub(crate) fn normal(&self) -> f64 {
         let radius = (-2.0 * (1.0 - self.float()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.float()).cos()
+    }
+
+    /// A direction. Archimedes: the height of an even point on the sphere is even.
+    pub(crate) fn direction(&self) -> DVec3 {
+        let y = 2.0 * self.float() - 1.0;
+        let (sin, cos) = (std::f64::consts::TAU * self.float()).sin_cos();
+        let radius = (1.0 - y * y).sqrt();
+        DVec3::new(radius * cos, y, radius * sin)
     }
 }
 
@@ -125,12 +133,6 @@ pub(crate) fn register(api: &mut Api) {
     api.method(
         "direction()",
         "A vector of length 1, evenly over the sphere.",
-        |random: Random, _| {
-            // Archimedes: the height of an even point on the sphere is even.
-            let y = 2.0 * random.float() - 1.0;
-            let (sin, cos) = (std::f64::consts::TAU * random.float()).sin_cos();
-            let radius = (1.0 - y * y).sqrt();
-            Ok(DVec3::new(radius * cos, y, radius * sin))
-        },
+        |random: Random, _| Ok(random.direction()),
     );
 }

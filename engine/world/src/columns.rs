@@ -9,7 +9,7 @@ use crate::merge::EntityMap;
 use crate::reflect::{ComponentInfo, FieldInfo};
 use crate::row_map::{RowMap, RowOrder};
 use crate::ticks::{ChangeTicks, Tick};
-use crate::value::Value;
+use crate::value::{FieldSlice, FieldSliceMut, Value};
 
 /// A component: its row type is a plain struct, its storage a set of arrays.
 ///
@@ -75,6 +75,10 @@ pub trait Arrays: Clone + Default + std::fmt::Debug + Send + Sync {
         value: &Value,
         check: bool,
     ) -> Result<(), String>;
+    /// The array of one field, if its elements are numbers or vectors.
+    fn lend(&self, field: usize) -> FieldSlice<'_>;
+    /// Like [`Arrays::lend`], to write.
+    fn lend_mut(&mut self, field: usize) -> FieldSliceMut<'_>;
     /// Bytes that the arrays occupy, spare room included.
     fn capacity_bytes(&self) -> usize;
 }
@@ -232,6 +236,20 @@ impl<C: Component> Columns<C> {
     /// Bytes that these columns occupy, spare room and bookkeeping included.
     pub fn capacity_bytes(&self) -> usize {
         self.arrays.capacity_bytes() + self.map.capacity_bytes() + self.ticks.capacity_bytes()
+    }
+
+    /// The array of one field by its position in the description.
+    pub(crate) fn lend(&self, field: usize) -> FieldSlice<'_> {
+        self.arrays.lend(field)
+    }
+
+    /// Like [`Columns::lend`], to write, with what it takes to find the rows and to mark them.
+    pub(crate) fn lend_mut(&mut self, field: usize) -> (FieldSliceMut<'_>, &RowMap, Marker<'_>) {
+        let marker = Marker {
+            ticks: &mut self.ticks,
+            now: self.now,
+        };
+        (self.arrays.lend_mut(field), &self.map, marker)
     }
 
     pub(crate) fn set_now(&mut self, now: Tick) {

@@ -168,6 +168,19 @@ macro_rules! component {
                         _ => Err(format!("there is no field number {field}")),
                     }
                 }
+                fn lend(&self, field: usize) -> $crate::value::FieldSlice<'_> {
+                    type Lend = for<'a> fn(&'a Arrays) -> $crate::value::FieldSlice<'a>;
+                    let fields: &[Lend] = &[$(|arrays| $crate::value::FieldType::lend(&arrays.$field),)*];
+                    fields.get(field).map_or($crate::value::FieldSlice::Other, |lend| lend(self))
+                }
+                fn lend_mut(&mut self, field: usize) -> $crate::value::FieldSliceMut<'_> {
+                    type Lend = for<'a> fn(&'a mut Arrays) -> $crate::value::FieldSliceMut<'a>;
+                    let fields: &[Lend] = &[$(|arrays| $crate::value::FieldType::lend_mut(&mut arrays.$field),)*];
+                    match fields.get(field) {
+                        Some(lend) => lend(self),
+                        None => $crate::value::FieldSliceMut::Other,
+                    }
+                }
                 fn capacity_bytes(&self) -> usize {
                     0 $(+ self.$field.capacity() * size_of::<$type>()
                         + self.$field.iter().map($crate::value::FieldType::heap_bytes).sum::<usize>())*

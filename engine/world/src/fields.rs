@@ -39,9 +39,22 @@ impl World {
             .filter(move |&kind| bits & (1 << kind as u32) != 0)
     }
 
+    /// Whether an entity exists and has a component.
+    pub fn has_component(&self, entity: Entity, kind: ComponentKind) -> bool {
+        self.entities.components(entity) & (1 << kind as u32) != 0
+    }
+
     /// One field of one component of an entity. `None` if any of the three does
     /// not exist.
     pub fn get_field(&self, entity: Entity, component: &str, field: &str) -> Option<Value> {
+        let kind = ComponentKind::from_name(component)?;
+        let (field, _) = kind.info().field(field)?;
+        self.field_at(entity, kind, field)
+    }
+
+    /// Like [`World::get_field`], for those who have looked the names up already: the field by its
+    /// position in the description.
+    pub fn field_at(&self, entity: Entity, kind: ComponentKind, field: usize) -> Option<Value> {
         struct Get {
             entity: Entity,
             field: usize,
@@ -52,8 +65,6 @@ impl World {
                 self.value = columns.field(self.entity, self.field);
             }
         }
-        let kind = ComponentKind::from_name(component)?;
-        let (field, _) = kind.info().field(field)?;
         let mut get = Get {
             entity,
             field,
@@ -75,7 +86,23 @@ impl World {
         field: &str,
         value: &Value,
     ) -> Result<(), WorldError> {
-        self.write_field(entity, component, field, value, true)
+        let (kind, field) = find_field(component, field)?;
+        self.write_field(entity, kind, field, value, true)
+    }
+
+    /// Like [`World::set_field`], for those who have looked the names up already: the field by its
+    /// position in the description.
+    ///
+    /// # Errors
+    /// As [`World::set_field`].
+    pub fn set_field_at(
+        &mut self,
+        entity: Entity,
+        kind: ComponentKind,
+        field: usize,
+        value: &Value,
+    ) -> Result<(), WorldError> {
+        self.write_field(entity, kind, field, value, true)
     }
 
     /// Like [`World::set_field`], but also with numbers outside the field's range.
@@ -86,24 +113,19 @@ impl World {
         field: &str,
         value: &Value,
     ) -> Result<(), WorldError> {
-        self.write_field(entity, component, field, value, false)
+        let (kind, field) = find_field(component, field)?;
+        self.write_field(entity, kind, field, value, false)
     }
 
     fn write_field(
         &mut self,
         entity: Entity,
-        component: &str,
-        field: &str,
+        kind: ComponentKind,
+        field: usize,
         value: &Value,
         check: bool,
     ) -> Result<(), WorldError> {
-        let kind = component_named(component)?;
         let info = kind.info();
-        let (index, field_info) = info.field(field).ok_or_else(|| WorldError::UnknownField {
-            component: info.name,
-            field: field.to_owned(),
-            known: field_names(info),
-        })?;
         if info.role == Role::Computed {
             return Err(WorldError::Computed(info.name));
         }
@@ -112,7 +134,7 @@ impl World {
         }
         let mut set = Set {
             entity,
-            field: index,
+            field,
             value,
             check,
             now: self.clock.now(),
@@ -126,7 +148,7 @@ impl World {
             }),
             Some(outcome) => outcome.map_err(|reason| WorldError::BadValue {
                 component: info.name,
-                field: field_info.name,
+                field: info.fields.get(field).map_or("", |field| field.name),
                 reason,
             }),
         }
@@ -142,7 +164,7 @@ impl World {
         if info.role == Role::Computed {
             return Err(WorldError::Computed(info.name));
         }
-        if self.entities.components(entity) & (1 << kind as u32) != 0 {
+        if self.has_component(entity, kind) {
             return Ok(());
         }
         kind.insert_default(self, entity)
@@ -177,6 +199,20 @@ impl VisitorMut for Set<'_> {
         self.outcome = columns
             .row_of(self.entity)
             .map(|row| columns.set_field(row, self.field, self.value, self.check));
+    }
+}
+
+/// The component and the field of these names.
+fn find_field(component: &str, field: &str) -> Result<(ComponentKind, usize), WorldError> {
+    let kind = component_named(component)?;
+    let info = kind.info();
+    match info.field(field) {
+        Some((index, _)) => Ok((kind, index)),
+        None => Err(WorldError::UnknownField {
+            component: info.name,
+            field: field.to_owned(),
+            known: field_names(info),
+        }),
     }
 }
 
@@ -276,6 +312,7 @@ mod tests {
             for field in info.fields {
                 assert!(!field.doc.trim().is_empty(), "{}.{}", info.name, field.name);
                 assert!(field.range.0 < field.range.1);
+                assert_eq!(field.is_color(), field.doc.contains("Rec. 709"));
             }
         }
         assert_eq!(Light::INFO.fields[2].name, "intensity");

@@ -13,7 +13,8 @@
 //! - [`systems`] and [`Schedule`]: world matrices, bounds and motion, in parallel
 //!   where their declarations allow it.
 //! - [`culling`]: which bounds a view shows or a light reaches.
-//! - [`fields`], [`reflect`] and [`scene_file`]: components by name, and as text.
+//! - [`fields`], [`reflect`] and [`scene_file`]: components by name, and as text;
+//!   [`World::gather`] and [`World::scatter`]: one field of many entities at once.
 //! - [`layouts`]: the same jobs on other layouts, to measure the difference.
 
 mod access;
@@ -31,6 +32,7 @@ pub mod curve;
 mod entity;
 mod error;
 pub mod fields;
+mod gather;
 mod hierarchy;
 pub mod layouts;
 mod merge;
@@ -60,6 +62,7 @@ pub use components::{
 pub use curve::Curve;
 pub use entity::Entity;
 pub use error::WorldError;
+pub use gather::{Lane, Refused};
 pub use glam;
 pub use hierarchy::Children;
 pub use merge::{EntityMap, Snapshot};
@@ -71,5 +74,7 @@ pub use sets::EntitySets;
 pub use stores::Stored;
 pub use systems::MeshBounds;
 pub use ticks::Tick;
-pub use value::{FieldType, MaterialId, MeshId, Parameters, Value, ValueType};
+pub use value::{
+    FieldSlice, FieldSliceMut, FieldType, MaterialId, MeshId, Parameters, Value, ValueType,
+};
 pub use world::World;

@@ -59,6 +59,14 @@ pub struct FieldInfo {
     pub default: fn() -> Value,
 }
 
+impl FieldInfo {
+    /// Whether its three numbers are a linear Rec. 709 colour. A field that holds one is called
+    /// `color` in every component.
+    pub fn is_color(&self) -> bool {
+        self.value_type == ValueType::Vec3 && self.name == "color"
+    }
+}
+
 /// The range of a field that accepts every number.
 pub const ANY: (f32, f32) = (f32::NEG_INFINITY, f32::INFINITY);
 

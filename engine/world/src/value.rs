@@ -94,12 +94,42 @@ pub trait FieldType: Clone + Send + Sync + 'static {
     fn numbers(&self) -> ([f32; 4], usize) {
         ([0.0; 4], 0)
     }
+    /// An array of such fields, if its elements are numbers or vectors.
+    fn lend(_fields: &[Self]) -> FieldSlice<'_> {
+        FieldSlice::Other
+    }
+    /// Like [`FieldType::lend`], to write.
+    fn lend_mut(_fields: &mut [Self]) -> FieldSliceMut<'_> {
+        FieldSliceMut::Other
+    }
     /// Replaces handles to entities of one world by their copies in another.
     fn map_entities(&mut self, _map: &EntityMap) {}
     /// Bytes that the field holds outside its column.
     fn heap_bytes(&self) -> usize {
         0
     }
+}
+
+/// The array behind one field, for those who work on numbers and vectors only.
+#[derive(Clone, Copy, Debug)]
+pub enum FieldSlice<'a> {
+    /// Numbers.
+    Numbers(&'a [f32]),
+    /// Vectors.
+    Vectors(&'a [Vec3]),
+    /// Something else.
+    Other,
+}
+
+/// Like [`FieldSlice`], to write.
+#[derive(Debug)]
+pub enum FieldSliceMut<'a> {
+    /// Numbers.
+    Numbers(&'a mut [f32]),
+    /// Vectors.
+    Vectors(&'a mut [Vec3]),
+    /// Something else.
+    Other,
 }
 
 /// Named values, in the order in which they were given.
@@ -176,7 +206,7 @@ pub(crate) fn mismatch(expected: &str, value: &Value) -> String {
 
 /// `FieldType` for a type that is the payload of one variant.
 macro_rules! field_type {
-    ($type:ty, $variant:ident, $expected:literal $(, numbers $numbers:expr)?) => {
+    ($type:ty, $variant:ident, $expected:literal $(, numbers $numbers:expr)? $(, lent as $lent:ident)?) => {
         impl FieldType for $type {
             const TYPE: ValueType = ValueType::$variant;
             fn to_value(&self) -> Value {
@@ -191,6 +221,12 @@ macro_rules! field_type {
             $(fn numbers(&self) -> ([f32; 4], usize) {
                 let numbers: fn(&Self) -> ([f32; 4], usize) = $numbers;
                 numbers(self)
+            })?
+            $(fn lend(fields: &[Self]) -> FieldSlice<'_> {
+                FieldSlice::$lent(fields)
+            }
+            fn lend_mut(fields: &mut [Self]) -> FieldSliceMut<'_> {
+                FieldSliceMut::$lent(fields)
             })?
         }
     };
@@ -207,7 +243,8 @@ field_type!(
     Vec3,
     Vec3,
     "three numbers",
-    numbers | v | ([v.x, v.y, v.z, 0.0], 3)
+    numbers | v | ([v.x, v.y, v.z, 0.0], 3),
+    lent as Vectors
 );
 field_type!(
     Vec4,
@@ -270,6 +307,12 @@ impl FieldType for f32 {
     }
     fn numbers(&self) -> ([f32; 4], usize) {
         ([*self, 0.0, 0.0, 0.0], 1)
+    }
+    fn lend(fields: &[Self]) -> FieldSlice<'_> {
+        FieldSlice::Numbers(fields)
+    }
+    fn lend_mut(fields: &mut [Self]) -> FieldSliceMut<'_> {
+        FieldSliceMut::Numbers(fields)
     }
 }
 

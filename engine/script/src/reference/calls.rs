@@ -45,6 +45,12 @@ pub(crate) const CALLS: &[&str] = &[
     "material(\"m\").surface(tiles_texture().size(8).pieces(2).stains(1)); 1",
     "material(\"m\").surface(weave_texture().size(8).stripes(2, 1)); 1",
     "material(\"m\").texture(checker_texture(4).size(8)); 1",
+    "spawn().set(\"transform.scale\", vec3(1, 2, 3)).add(\"light\", #{ range: 4 }).get(\"light.range\")",
+    "point_light().range(3); entities().with(\"light.range\", 3).near(vec3(0, 3, 0), 1).count",
+    "let c = 2 * indices(3) - 1 + indices(3) / 4; c.sum() + max(c, 1).sum() + clamp(c, 0, 2).sum()",
+    "let c = vec3(indices(3), 1, 2) * 2; c.x = 3; c.x += 1; c + vec3(1, 2, 3)",
+    "let r = random(7); r.floats(2) + r.floats(2, 1, 2) + r.normals(2, 0, 1) + length(r.directions(2))",
+    "dot(column_of([vec3(1, 2, 3)]), vec3(3, 2, 1)) + normalize(column_of([vec3(0, 3, 4)])).z",
 ];
 
 /// Calls that take no numbers, or need files. Each is run in a project that has what they name.
@@ -76,6 +82,14 @@ pub(crate) const OTHER_CALLS: &[&str] = &[
     "material(\"wood\").surface(plaster_texture().size(8).colors(rgb(1, 0, 0))); 1",
     "spawn(\"globe\").behave(\"spin\", #{ speed: 20 }).behaving(true).name",
     "spawn(\"candle\").send(\"switch\"); broadcast(\"night\", true)",
+    "let lamp = point_light(\"lamp\"); [lamp.components, lamp.has_component(\"light\"), lamp.fields(\"light\")]",
+    "let lamp = point_light(\"lamp\").tag(\"old\").tag(\"brass\").untag(\"old\"); [lamp.tags, lamp.has_tag(\"brass\")]",
+    "let lamp = point_light(\"lamp\").drop(\"light\"); lamp.components",
+    "let table = spawn(\"table\"); spawn(\"cup\").parent(table); [table.descendants.count, entities().below(table).to_array(), entities().roots().count]",
+    "spawn(\"lamp 1\").tag(\"on\"); entities().named(\"lamp *\").tagged(\"on\").without(\"light\").count",
+    "point_light(\"lamp\"); entities().with(\"light\").tag(\"dark\").drop(\"light\").count",
+    "let heights = column_of([1, 4, 2]); [heights.to_array(), heights.average(), heights.smallest(), heights.largest()]",
+    "let points = column_of([vec3(1, 0, 0), vec3(0, 3, 4)]); [cross(points, vec3(0, 1, 0)).to_array(), distance(points, vec3(0, 0, 0)).to_array()]",
     "[key_down(\"left\"), keys_down(), pointer()]",
     "pick(vec3(0, 1, 5), vec3(0, 0, -1))",
 ];

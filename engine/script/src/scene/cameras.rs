@@ -104,7 +104,12 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
     );
 }
 
-fn change(data: &mut Data, entity: Entity, edit: impl FnOnce(&mut Camera)) -> Result<(), Mistake> {
+/// Changes a camera, whose near plane stays before its far plane.
+pub(super) fn change(
+    data: &mut Data,
+    entity: Entity,
+    edit: impl FnOnce(&mut Camera),
+) -> Result<(), Mistake> {
     let mut camera: Camera = data.get(entity, "camera")?;
     edit(&mut camera);
     if camera.near >= camera.far {

@@ -1,16 +1,17 @@
 //! What a scene script works on.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::cache::Reuse;
 use lightbench_assets::files::Files;
-use lightbench_assets::{Assets, Mesh, MeshId, Progress, Shared};
+use lightbench_assets::{Assets, MaterialId, Mesh, MeshId, Progress, Shared};
 use lightbench_world::glam::Vec3;
 use lightbench_world::{Entity, Name, Stored, Transform, World};
 
 use super::behaviours::{AtWork, Message, Starting};
 use super::input::Input;
+use super::materials::Material;
 use super::models::Models;
 use super::recipes::Recipes;
 use crate::api::{Mistake, ScriptType};
@@ -50,6 +51,10 @@ pub(super) struct Data {
     pub(super) starting: Option<Starting>,
     /// Points that entities stay turned to when they move.
     pub(super) aims: HashMap<Entity, Vec3>,
+    /// The materials that scripts hold, so that one that is asked for again is the same.
+    pub(super) materials: HashMap<MaterialId, Material>,
+    /// The entities in the order in which they were made.
+    made: Vec<Entity>,
     /// Names that were looked up or given. The world alone would search all names each time.
     names: HashMap<String, Entity>,
     triangles: usize,
@@ -87,6 +92,8 @@ impl Stage {
             at_work: AtWork::default(),
             starting: None,
             aims: HashMap::new(),
+            materials: HashMap::new(),
+            made: Vec::new(),
             names: HashMap::new(),
             triangles: 0,
         })))
@@ -110,19 +117,48 @@ impl Data {
         self.insert(entity, Transform::default())?;
         if !name.is_empty() {
             self.insert(entity, Name::new(name))?;
-            // As in the world, the first of a name is found.
-            if self.find(name).is_none() {
-                self.names.insert(name.to_owned(), entity);
-            }
+            self.note_name(entity, name);
         }
+        // Scripts that make and remove entities all the time must not fill the list.
+        if self.made.len() > 1024 + 2 * self.world.len() {
+            self.forget_removed();
+        }
+        self.made.push(entity);
         Ok(entity)
+    }
+
+    /// All entities in the order in which they were made. Those that no script made come last.
+    pub(super) fn all(&mut self) -> Vec<Entity> {
+        self.forget_removed();
+        if self.made.len() < self.world.len() {
+            let known: HashSet<Entity> = self.made.iter().copied().collect();
+            let others = self
+                .world
+                .entities()
+                .filter(|entity| !known.contains(entity));
+            self.made.extend(others);
+        }
+        self.made.clone()
+    }
+
+    fn forget_removed(&mut self) {
+        let world = &self.world;
+        self.made.retain(|&entity| world.contains(entity));
+    }
+
+    /// Takes note of a name that an entity was given. As in the world, the first of a name is found.
+    pub(super) fn note_name(&mut self, entity: Entity, name: &str) {
+        if self.find(name).is_none() {
+            self.names.insert(name.to_owned(), entity);
+        }
     }
 
     /// The entity of that name.
     pub(super) fn find(&mut self, name: &str) -> Option<Entity> {
         if let Some(&entity) = self.names.get(name) {
-            let named: Option<Name> = self.world.get(entity);
-            if named.is_some_and(|named| named.text == name) {
+            let names = self.world.columns::<Name>();
+            let row = names.row_of(entity);
+            if row.is_some_and(|row| names.text()[row] == name) {
                 return Some(entity);
             }
             self.names.remove(name);

@@ -301,8 +301,10 @@ fn reading(api: &mut Api, stage: &Stage) {
         },
     );
     setter(api, stage, "name", |data, entity, a| {
-        let name = Name::new(a.text(0)?);
-        data.insert(entity, name)
+        let name = a.text(0)?;
+        data.insert(entity, Name::new(name.as_str()))?;
+        data.note_name(entity, &name);
+        Ok(())
     });
     getter(
         api,

@@ -25,6 +25,19 @@ impl ScriptType for Material {
     const NAME: &'static str = "material";
 }
 
+impl Material {
+    /// The material of an id, which is the same however often it is asked for. Of one that no script
+    /// made, the colour counts as chosen.
+    pub(super) fn of(data: &mut Data, id: MaterialId) -> Self {
+        let known = data.materials.entry(id).or_insert_with(|| Self {
+            id,
+            colored: Arc::new(AtomicBool::new(true)),
+            has_power: Arc::default(),
+        });
+        known.clone()
+    }
+}
+
 /// Registers a method of a material that gives the material back.
 pub(super) fn method(
     api: &mut Api,
@@ -57,15 +70,18 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
         "Makes a material: a matt mid grey, until its methods say more.",
         move |a| {
             let name = a.text(0)?;
-            let id = made.lock().assets.add_material(Surface {
+            let mut data = made.lock();
+            let id = data.assets.add_material(Surface {
                 name,
                 ..Surface::default()
             });
-            Ok(Material {
+            let material = Material {
                 id,
                 colored: Arc::default(),
                 has_power: Arc::default(),
-            })
+            };
+            data.materials.insert(id, material.clone());
+            Ok(material)
         },
     );
     for form in ["color(red, green, blue)", "color(color)"] {

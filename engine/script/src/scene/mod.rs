@@ -3,9 +3,11 @@
 mod behaviours;
 mod bounds;
 mod cameras;
+mod columns;
 mod data;
 mod entities;
 mod faces;
+mod fields;
 mod input;
 mod lights;
 mod list;
@@ -16,9 +18,13 @@ mod picking;
 mod recipes;
 mod reflection;
 mod saved;
+mod selection;
 mod shapes;
 mod state;
+mod tables;
+mod tags;
 mod textures;
+mod values;
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -221,6 +227,10 @@ fn host(
                 picking::register(api, &made);
                 api.section("State");
                 state::register(api);
+                fields::register(api, &made);
+                tags::register(api, &made);
+                selection::register(api, &made);
+                columns::register(api, &made);
                 stage = Some(made);
             },
             globals: vec![("state", Dynamic::from(state::State::default()))],
@@ -508,6 +518,8 @@ const _: fn() = || {
     assert_send::<Scene>();
 };
 
+#[cfg(test)]
+mod reach_tests;
 #[cfg(test)]
 mod saved_tests;
 #[cfg(test)]

@@ -126,6 +126,11 @@ fn shipped_scenes_load_move_and_repeat() {
             1 + 30 + 20 + 1 + 1,
         ),
         ("showroom", Settings::new(), 1 + 1 + 1 + 1 + 12 + 1 + 1),
+        (
+            "swarm",
+            Settings::new().with("motes", "50").with("lamps", "4"),
+            1 + 1 + 50 + 4 + 1 + 1,
+        ),
     ] {
         let run = || {
             let mut scene = match load_scene(&files, name, &settings, &Progress::new()) {

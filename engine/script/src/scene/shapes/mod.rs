@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use lightbench_assets::procedural::{self, Arch, ArchedWall, Cloth, Column, MAX_SEGMENTS, Profile};
 use lightbench_assets::{Mesh, MeshId, Shared};
 use lightbench_world::glam::{UVec2, Vec2, Vec3};
+use rhai::Dynamic;
 
 use super::data::{Data, Stage};
 use super::faces::{self, Corners};
@@ -227,13 +228,17 @@ pub(super) fn mesh_argument(
     a: &Arguments,
     index: usize,
 ) -> Result<MeshId, Mistake> {
-    if let Some(mesh) = a.try_object::<MeshHandle>(index) {
-        return Ok(mesh.0);
+    mesh_of(data, a.value(index))
+        .unwrap_or_else(|| Err(a.wrong(index, "a mesh or a shape, as in `sphere(1)`")))
+}
+
+/// The mesh that a value is, or that is made of it; `None` for other values.
+pub(super) fn mesh_of(data: &mut Data, value: &Dynamic) -> Option<Result<MeshId, Mistake>> {
+    if let Some(mesh) = value.read_lock::<MeshHandle>() {
+        return Some(Ok(mesh.0));
     }
-    match a.try_object::<Shape>(index) {
-        Some(shape) => shape.mesh(data),
-        None => Err(a.wrong(index, "a mesh or a shape, as in `sphere(1)`")),
-    }
+    let shape = value.read_lock::<Shape>()?;
+    Some(shape.mesh(data))
 }
 
 fn length(a: &Arguments, index: usize) -> Result<f32, Mistake> {
