@@ -96,6 +96,20 @@ fn rectangle_sides(from_pixel: vec2f, to_pixel: vec2f, resolution: vec2f) -> Sid
     );
 }
 
+// The box in view space around what lies between the four planes and two distances along the view, a
+// little larger than it is, since distances come with rounding.
+fn sides_box(sides: Sides, nearest: f32, farthest: f32) -> Box {
+    // A normal is (±1, 0, ±slope) or (0, ±1, ±slope) times a number.
+    let low = vec2f(sides.left.z / sides.left.x, sides.bottom.z / sides.bottom.y);
+    let high = vec2f(sides.right.z / sides.right.x, sides.top.z / sides.top.y);
+    let front = nearest * 0.9999;
+    let back = farthest * 1.0001;
+    return Box(
+        vec3f(min(low * front, low * back), -back),
+        vec3f(max(high * front, high * back), -front),
+    );
+}
+
 // Whether a ball meets what lies between the four planes.
 fn meets_sides(ball: Sphere, sides: Sides) -> bool {
     let reach = -ball.radius;

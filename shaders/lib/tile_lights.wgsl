@@ -101,13 +101,17 @@ fn find(thread: u32, first: u32, sides: culling::Sides, range: DepthRange) {
     if atomicLoad(&sky_pixels) != 0u {
         farthest = 1.0e30;
     }
+    // Balls that are large beside the tile meet its four planes and its distances far more often than
+    // what lies between them all; the box around that tells most of these apart.
+    let space = culling::sides_box(sides, range.nearest, range.farthest);
+    let any_solid = range.nearest <= range.farthest;
     let count = min(scene::frame.light_count - first, BATCH);
     for (var i = thread; i < count; i += THREADS) {
         let sphere = light_spheres[first + i];
         let ball = culling::Sphere(sphere.xyz, sphere.w);
         let meets = culling::meets_sides(ball, sides);
         let reaches_clear = meets && culling::meets_range(ball, 0.0, farthest);
-        var reaches_solid = meets && culling::meets_range(ball, range.nearest, range.farthest);
+        var reaches_solid = meets && any_solid && culling::meets_box(ball, space);
 #ifdef DEPTH_MASK
         reaches_solid = reaches_solid && meets_slices(ball, range);
 #endif
