@@ -10,6 +10,7 @@
 mod bar;
 mod by_hand;
 mod culling;
+mod frames;
 mod peer;
 mod processor;
 mod sums;
@@ -45,7 +46,7 @@ fn main() {
     let machine = Machine::this();
     let gpu = lightbench_tests::gpu(false).summary;
     let software = if gpu.software {
-        "; a software driver: its times are the processor's"
+        "; a software driver, so times are processor time of the whole process"
     } else {
         ""
     };
@@ -53,7 +54,7 @@ fn main() {
         "{}, {} cores, {}, {} {}{software}",
         machine.cpu, machine.cores, gpu.name, gpu.driver, gpu.driver_info
     );
-    let mut bars = Bars::default();
+    let mut bars = Bars::new(gpu.software, machine.cores);
     for (name, run) in ALL {
         if wanted.is_empty() || wanted.iter().any(|word| word == name) {
             println!("\n{name}");

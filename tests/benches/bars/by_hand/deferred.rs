@@ -20,36 +20,61 @@ pub struct Deferred {
 
 impl Deferred {
     pub fn new(ground: &mut Ground) -> Self {
-        let colors: Vec<String> =
-            ground.pass("g_buffer").colors.iter().map(|color| color.target.clone()).collect();
+        let colors: Vec<String> = ground
+            .pass("g_buffer")
+            .colors
+            .iter()
+            .map(|color| color.target.clone())
+            .collect();
         colors.iter().for_each(|name| ground.texture(name));
         ground.texture("depth");
-        let g_buffer = render_pipeline(ground, &State {
-            vertex: ("shaders/vertex/geometry.wgsl", &[], Streams::All),
-            fragment: Some("g_buffer"),
-            cull: Some(Face::Back),
-            depth: Some((CompareFunction::GreaterEqual, true)),
-            colors: &colors,
-            blend: None,
-            parameters: None,
-        });
+        let g_buffer = render_pipeline(
+            ground,
+            &State {
+                vertex: ("shaders/vertex/geometry.wgsl", &[], Streams::All),
+                fragment: Some("g_buffer"),
+                cull: Some(Face::Back),
+                depth: Some((CompareFunction::GreaterEqual, true)),
+                colors: &colors,
+                blend: None,
+                parameters: None,
+            },
+        );
         // Depth is reversed, so "less" is farther. A back face lights what lies in front of it.
         let mut lights = |cull, test, defines: &[&str], streams| {
-            render_pipeline(ground, &State {
-                vertex: ("shaders/vertex/light_volume.wgsl", defines, streams),
-                fragment: Some("lights"),
-                cull,
-                depth: Some((test, false)),
-                colors: &["hdr".to_owned()],
-                blend: Some(ADD),
-                parameters: None,
-            })
+            render_pipeline(
+                ground,
+                &State {
+                    vertex: ("shaders/vertex/light_volume.wgsl", defines, streams),
+                    fragment: Some("lights"),
+                    cull,
+                    depth: Some((test, false)),
+                    colors: &["hdr".to_owned()],
+                    blend: Some(ADD),
+                    parameters: None,
+                },
+            )
         };
         let positions = Streams::Positions;
         let lights = [
-            lights(Some(Face::Front), CompareFunction::LessEqual, &[], positions),
-            lights(Some(Face::Back), CompareFunction::GreaterEqual, &[], positions),
-            lights(None, CompareFunction::Always, &["FULL_SCREEN"], Streams::None),
+            lights(
+                Some(Face::Front),
+                CompareFunction::LessEqual,
+                &[],
+                positions,
+            ),
+            lights(
+                Some(Face::Back),
+                CompareFunction::GreaterEqual,
+                &[],
+                positions,
+            ),
+            lights(
+                None,
+                CompareFunction::Always,
+                &["FULL_SCREEN"],
+                Streams::None,
+            ),
         ];
         let end = End::new(ground);
         Self {
@@ -71,7 +96,12 @@ impl ByHand for Deferred {
         self.g_buffer.objects(ground, Streams::All, &mut pass);
         drop(pass);
 
-        let mut pass = begin(encoder, ground, &[(&self.hdr, false)], Some((&self.depth, false)));
+        let mut pass = begin(
+            encoder,
+            ground,
+            &[(&self.hdr, false)],
+            Some((&self.depth, false)),
+        );
         let meshes = &ground.scene.meshes;
         for draw in &ground.frame.light_lists[0].draws {
             let [back, front, screen] = &self.lights;
@@ -86,7 +116,11 @@ impl ByHand for Deferred {
             }
             let shape = meshes.shape(draw.kind.shape).unwrap();
             meshes.bind(&mut pass, false);
-            pass.draw_indexed(shape.indices.clone(), shape.base_vertex, draw.volumes.clone());
+            pass.draw_indexed(
+                shape.indices.clone(),
+                shape.base_vertex,
+                draw.volumes.clone(),
+            );
         }
         drop(pass);
         self.end.record(ground, encoder);

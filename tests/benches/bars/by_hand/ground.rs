@@ -97,7 +97,11 @@ impl Ground {
 
     /// A pass of the description.
     pub fn pass(&self, name: &str) -> &PassDesc {
-        self.desc.passes.iter().find(|pass| pass.name == name).unwrap()
+        self.desc
+            .passes
+            .iter()
+            .find(|pass| pass.name == name)
+            .unwrap()
     }
 
     /// The format of a target.
@@ -197,7 +201,9 @@ impl Ground {
                         naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE)
                     );
                     wgpu::BindingType::Buffer {
-                        ty: wgpu::BufferBindingType::Storage { read_only: !written },
+                        ty: wgpu::BufferBindingType::Storage {
+                            read_only: !written,
+                        },
                         has_dynamic_offset: false,
                         min_binding_size: None,
                     }
@@ -222,10 +228,12 @@ impl Ground {
             binding: *binding,
             resource: wgpu::BindingResource::TextureView(view),
         });
-        let buffers = buffers.iter().map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding: *binding,
-            resource: buffer.as_entire_binding(),
-        });
+        let buffers = buffers
+            .iter()
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding: *binding,
+                resource: buffer.as_entire_binding(),
+            });
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &layout,

@@ -10,8 +10,6 @@ mod ground;
 mod passes;
 mod tiled;
 
-use std::time::Instant;
-
 use lightbench::render::Pipeline;
 use lightbench::render::readback::read_bytes;
 use lightbench::script::{Settings, load_pipeline};
@@ -19,10 +17,11 @@ use lightbench_tests::{Studio, settings};
 
 use crate::SIZE;
 use crate::bar::Bars;
+use crate::frames::{Times, draw};
 use ground::Ground;
 
 /// Frames measured of each side.
-const FRAMES: usize = 12;
+const FRAMES: usize = 16;
 /// A pipeline may take so much longer than its passes by hand.
 const BOUND: f64 = 1.10;
 
@@ -47,7 +46,14 @@ pub fn run(bars: &mut Bars) {
             _ => Box::new(tiled::Tiled::new(&mut ground)),
         };
         let mut pipeline = studio.compile(name, &Settings::new());
-        compare(bars, name, &mut studio, &ground, by_hand.as_ref(), &mut pipeline);
+        compare(
+            bars,
+            name,
+            &mut studio,
+            &ground,
+            by_hand.as_ref(),
+            &mut pipeline,
+        );
     }
 }
 
@@ -59,44 +65,39 @@ fn compare(
     by_hand: &dyn ByHand,
     pipeline: &mut Pipeline,
 ) {
-    let (mut ours, mut hand) = (Vec::new(), Vec::new());
+    let (mut ours, mut hand) = (Times::default(), Times::default());
     for frame in 0..FRAMES + 2 {
         // Who begins changes from frame to frame.
-        let mut took = [0.0; 2];
         for turn in 0..2 {
-            let side = (frame + turn) % 2;
-            let start = Instant::now();
-            match side {
-                0 => draw(studio, pipeline),
-                _ => ground.draw(|encoder| by_hand.record(ground, encoder)),
+            if (frame + turn) % 2 == 0 {
+                ours.take(|| draw(studio, pipeline));
+            } else {
+                hand.take(|| ground.draw(|encoder| by_hand.record(ground, encoder)));
             }
-            took[side] = start.elapsed().as_secs_f64() * 1e3;
-        }
-        // The first two compile and warm up.
-        if frame >= 2 {
-            ours.push(took[0]);
-            hand.push(took[1]);
         }
     }
+    // The first two compile and warm up.
+    ours.warm(2);
+    hand.warm(2);
     let (_, _, theirs) = studio.renderer.read_output(pipeline).unwrap();
     let picture = read_bytes(&ground.gpu, by_hand.output()).unwrap();
     let pairs = || theirs.iter().zip(&picture);
     let largest = pairs().map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(255);
     let differing = pairs().filter(|(a, b)| a != b).count();
     assert_eq!(theirs.len(), picture.len());
-    println!("  {name}: pictures differ in {differing} of {} values, at most by {largest} of 255", picture.len());
+    println!(
+        "  {name}: pictures differ in {differing} of {} values, at most by {largest} of 255",
+        picture.len()
+    );
     // The same shaders on the same driver: any difference would be another frame.
-    assert_eq!(differing, 0, "{name}: the side by hand draws another picture");
-    bars.ratio(&format!("{name} to its passes by hand"), &ours, &hand, BOUND);
-}
-
-/// One frame through the engine, from the world to the idle device.
-fn draw(studio: &mut Studio, pipeline: &mut Pipeline) {
-    let (world, assets) = (&mut studio.scene.world, &studio.scene.assets);
-    studio.renderer.set_frame_index(0);
-    studio
-        .renderer
-        .render(world, assets, pipeline, &studio.view, SIZE, 0.0)
-        .unwrap();
-    studio.renderer.finish(60).unwrap();
+    assert_eq!(
+        differing, 0,
+        "{name}: the side by hand draws another picture"
+    );
+    bars.ratio(
+        &format!("{name} to its passes by hand"),
+        &ours,
+        &hand,
+        BOUND,
+    );
 }

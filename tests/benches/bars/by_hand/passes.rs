@@ -52,7 +52,10 @@ pub const ADD: wgpu::BlendState = {
         dst_factor: wgpu::BlendFactor::One,
         operation: wgpu::BlendOperation::Add,
     };
-    wgpu::BlendState { color: one, alpha: one }
+    wgpu::BlendState {
+        color: one,
+        alpha: one,
+    }
 };
 
 /// Builds a render pipeline.
@@ -72,37 +75,43 @@ pub fn render_pipeline(ground: &mut Ground, state: &State<'_>) -> Draw {
         })
     });
     let targets: Vec<_> = targets.collect();
-    let pipeline = ground.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: state.fragment,
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &vertex,
-            entry_point: Some("vertex_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: match streams {
-                Streams::None => &[],
-                Streams::Positions => &[Some(POSITIONS)],
-                Streams::All => &[Some(POSITIONS), Some(ATTRIBUTES)],
+    let pipeline = ground
+        .gpu
+        .device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: state.fragment,
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &vertex,
+                entry_point: Some("vertex_main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: match streams {
+                    Streams::None => &[],
+                    Streams::Positions => &[Some(POSITIONS)],
+                    Streams::All => &[Some(POSITIONS), Some(ATTRIBUTES)],
+                },
             },
-        },
-        primitive: wgpu::PrimitiveState { cull_mode: state.cull, ..Default::default() },
-        depth_stencil: state.depth.map(|(compare, write)| wgpu::DepthStencilState {
-            format: ground.format("depth"),
-            depth_write_enabled: Some(write),
-            depth_compare: Some(compare),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState::default(),
-        fragment: fragment.as_ref().map(|module| wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+            primitive: wgpu::PrimitiveState {
+                cull_mode: state.cull,
+                ..Default::default()
+            },
+            depth_stencil: state.depth.map(|(compare, write)| wgpu::DepthStencilState {
+                format: ground.format("depth"),
+                depth_write_enabled: Some(write),
+                depth_compare: Some(compare),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: fragment.as_ref().map(|module| wgpu::FragmentState {
+                module,
+                entry_point: Some("fragment_main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
     Draw { pipeline, reads }
 }
 
@@ -110,14 +119,17 @@ pub fn render_pipeline(ground: &mut Ground, state: &State<'_>) -> Draw {
 pub fn compute_pipeline(ground: &mut Ground, pass: &str) -> (wgpu::ComputePipeline, Bound) {
     let (module, bound) = ground.shader_of(pass, wgpu::ShaderStages::COMPUTE);
     let layout = layout(ground, bound.as_ref(), None);
-    let pipeline = ground.gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(pass),
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some("compute_main"),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    });
+    let pipeline = ground
+        .gpu
+        .device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(pass),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("compute_main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
     (pipeline, bound.unwrap())
 }
 
@@ -126,12 +138,19 @@ fn layout(
     reads: Option<&Bound>,
     parameters: Option<&wgpu::BindGroupLayout>,
 ) -> wgpu::PipelineLayout {
-    let groups = [Some(&ground.scene_layout.group), reads.map(|reads| &reads.layout), parameters];
-    ground.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &groups,
-        immediate_size: 0,
-    })
+    let groups = [
+        Some(&ground.scene_layout.group),
+        reads.map(|reads| &reads.layout),
+        parameters,
+    ];
+    ground
+        .gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        })
 }
 
 /// Begins a render pass on views of colour, each cleared to zero or kept, and depth: cleared to zero,
@@ -142,20 +161,23 @@ pub fn begin<'e>(
     colors: &[(&wgpu::TextureView, bool)],
     depth: Option<(&wgpu::TextureView, bool)>,
 ) -> wgpu::RenderPass<'e> {
-    let colors: Vec<_> = colors.iter().map(|(view, clear)| {
-        Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: match clear {
-                    true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    false => wgpu::LoadOp::Load,
+    let colors: Vec<_> = colors
+        .iter()
+        .map(|(view, clear)| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: match clear {
+                        true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        false => wgpu::LoadOp::Load,
+                    },
+                    store: wgpu::StoreOp::Store,
                 },
-                store: wgpu::StoreOp::Store,
-            },
+            })
         })
-    }).collect();
+        .collect();
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: None,
         color_attachments: &colors,
@@ -241,24 +263,30 @@ impl End {
             }],
         });
         let whole = ("shaders/vertex/fullscreen.wgsl", &[][..], Streams::None);
-        let sky = render_pipeline(ground, &State {
-            vertex: whole,
-            fragment: Some("sky"),
-            cull: None,
-            depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
-            colors: &["hdr".to_owned()],
-            blend: None,
-            parameters: None,
-        });
-        let output = render_pipeline(ground, &State {
-            vertex: whole,
-            fragment: Some("output"),
-            cull: None,
-            depth: None,
-            colors: &["output".to_owned()],
-            blend: None,
-            parameters: Some(&layout),
-        });
+        let sky = render_pipeline(
+            ground,
+            &State {
+                vertex: whole,
+                fragment: Some("sky"),
+                cull: None,
+                depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
+                colors: &["hdr".to_owned()],
+                blend: None,
+                parameters: None,
+            },
+        );
+        let output = render_pipeline(
+            ground,
+            &State {
+                vertex: whole,
+                fragment: Some("output"),
+                cull: None,
+                depth: None,
+                colors: &["output".to_owned()],
+                blend: None,
+                parameters: Some(&layout),
+            },
+        );
         Self {
             sky,
             output,
@@ -270,7 +298,12 @@ impl End {
     }
 
     pub fn record(&self, ground: &Ground, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = begin(encoder, ground, &[(&self.hdr, false)], Some((&self.depth, false)));
+        let mut pass = begin(
+            encoder,
+            ground,
+            &[(&self.hdr, false)],
+            Some((&self.depth, false)),
+        );
         self.sky.set(&mut pass);
         pass.draw(0..3, 0..1);
         drop(pass);

@@ -34,26 +34,32 @@ impl Tiled {
         ground.buffer("tile_totals", 4);
         ground.buffer("light_spheres", 4 * (lights + 1));
         let geometry = "shaders/vertex/geometry.wgsl";
-        let prepass = render_pipeline(ground, &State {
-            vertex: (geometry, &["POSITION_ONLY"], Streams::Positions),
-            fragment: None,
-            cull: Some(Face::Back),
-            depth: Some((CompareFunction::GreaterEqual, true)),
-            colors: &[],
-            blend: None,
-            parameters: None,
-        });
+        let prepass = render_pipeline(
+            ground,
+            &State {
+                vertex: (geometry, &["POSITION_ONLY"], Streams::Positions),
+                fragment: None,
+                cull: Some(Face::Back),
+                depth: Some((CompareFunction::GreaterEqual, true)),
+                colors: &[],
+                blend: None,
+                parameters: None,
+            },
+        );
         let spheres = compute_pipeline(ground, "light_spheres");
         let cull = compute_pipeline(ground, "cull");
-        let shade = render_pipeline(ground, &State {
-            vertex: (geometry, &[], Streams::All),
-            fragment: Some("shade"),
-            cull: Some(Face::Back),
-            depth: Some((CompareFunction::Equal, false)),
-            colors: &["hdr".to_owned()],
-            blend: None,
-            parameters: None,
-        });
+        let shade = render_pipeline(
+            ground,
+            &State {
+                vertex: (geometry, &[], Streams::All),
+                fragment: Some("shade"),
+                cull: Some(Face::Back),
+                depth: Some((CompareFunction::Equal, false)),
+                colors: &["hdr".to_owned()],
+                blend: None,
+                parameters: None,
+            },
+        );
         let end = End::new(ground);
         Self {
             prepass,
@@ -89,7 +95,12 @@ impl ByHand for Tiled {
             pass.dispatch_workgroups(x, y, 1);
         }
 
-        let mut pass = begin(encoder, ground, &[(&self.hdr, true)], Some((&self.depth, false)));
+        let mut pass = begin(
+            encoder,
+            ground,
+            &[(&self.hdr, true)],
+            Some((&self.depth, false)),
+        );
         self.shade.objects(ground, Streams::All, &mut pass);
         drop(pass);
         self.end.record(ground, encoder);
