@@ -8,6 +8,7 @@ use lightbench::world::layouts;
 
 use super::arguments::{GpuArguments, Size};
 use super::bench_frame::{self, FrameArguments};
+use super::bench_pipelines::{self, PipelinesArguments};
 use super::progress::Bar;
 use super::project;
 use super::report::say;
@@ -22,6 +23,8 @@ Examples:
   lightbench bench world
   lightbench bench world --objects 100000
   lightbench bench frame many_lights --set spheres=10000
+  lightbench bench pipelines --pipelines forward_single_pass,tiled_deferred --out curves
+  lightbench bench pipelines layers --sweep layers=1,2,4,8,16,32 --out curves
   lightbench bench reload --size 320x180 --edits 20
   lightbench bench scene atrium --edits 20
   lightbench bench swap --pipelines forward_single_pass,deferred_shading"
@@ -45,8 +48,10 @@ enum What {
         )]
         objects: u32,
     },
-    /// Moves a scene from frame to frame and says what each system and the extraction take
+    /// Moves a scene from frame to frame and says what each system, the extraction and the recording take
     Frame(FrameArguments),
+    /// Measures what a frame costs as a parameter of the scene grows, and writes a table and a plot
+    Pipelines(PipelinesArguments),
     /// Saves a shader again and again, and says how long it takes until the picture has changed
     Reload {
         /// The scene that is drawn, through deferred shading
@@ -116,6 +121,7 @@ pub fn run(
             say(report.to_string().trim_end())
         }
         What::Frame(arguments) => bench_frame::run(arguments, files()?),
+        What::Pipelines(arguments) => bench_pipelines::run(arguments, files()?),
         What::Reload {
             scene,
             size,

@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments, files: Files) -> anyhow::Result<()> {
     project::writable(&report_file)?;
     let inputs = Inputs::new();
     let mut files = inputs.watch(&files);
-    let pipelines = chosen(arguments, &files)?;
+    let pipelines = chosen(&arguments.pipelines, &files)?;
     let progress = Progress::new();
     let request = Request {
         scene: &arguments.scene,
@@ -123,9 +123,9 @@ pub fn run(arguments: &Arguments, files: Files) -> anyhow::Result<()> {
 }
 
 /// The pipelines that were named, or all.
-fn chosen(arguments: &Arguments, files: &Files) -> anyhow::Result<Vec<String>> {
+pub(super) fn chosen(named: &[String], files: &Files) -> anyhow::Result<Vec<String>> {
     let mut chosen: Vec<String> = Vec::new();
-    for name in arguments.pipelines.iter().map(|name| name.trim()) {
+    for name in named.iter().map(|name| name.trim()) {
         if name.is_empty() {
             return Err(
                 Usage("--pipelines has an empty name; write it as a,b,c".to_owned()).into(),
@@ -181,8 +181,7 @@ fn describe(
     reference: String,
     measured: &Measurement,
 ) -> Comparison {
-    let file = stage.scene.path.rsplit('/').next().unwrap_or_default();
-    let scene = file.strip_suffix(".rhai").unwrap_or(file).to_owned();
+    let scene = scene_name(&stage.scene.path);
     let parameters = stage.scene.parameters.iter().map(|parameter| Parameter {
         name: parameter.name.clone(),
         value: parameter.value.to_string(),
@@ -191,14 +190,8 @@ fn describe(
         schema: SCHEMA,
         title: format!("{scene}: {} pipelines", measured.pipelines.len()),
         scene,
-        command_line: command_line(
-            env::args_os()
-                .skip(1)
-                .map(|a| a.to_string_lossy().into_owned()),
-        ),
-        created: jiff::Timestamp::now()
-            .strftime("%Y-%m-%dT%H:%M:%SZ")
-            .to_string(),
+        command_line: this_command(),
+        created: now(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         machine: Machine::this(),
         adapter: Adapter::from(&stage.renderer.gpu().summary),
@@ -214,7 +207,25 @@ fn describe(
     }
 }
 
-/// The command as a POSIX shell takes it again.
+/// A scene's name from its path.
+pub(super) fn scene_name(path: &str) -> String {
+    let file = path.rsplit('/').next().unwrap_or_default();
+    file.strip_suffix(".rhai").unwrap_or(file).to_owned()
+}
+
+/// The time, RFC 3339.
+pub(super) fn now() -> String {
+    let now = jiff::Timestamp::now();
+    now.strftime("%Y-%m-%dT%H:%M:%SZ").to_string()
+}
+
+/// The command that is running, as a POSIX shell takes it again.
+pub(super) fn this_command() -> String {
+    let arguments = env::args_os().skip(1);
+    command_line(arguments.map(|a| a.to_string_lossy().into_owned()))
+}
+
+/// A command as a POSIX shell takes it again.
 fn command_line(arguments: impl Iterator<Item = String>) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./,=:+@%".contains(c);
     let mut line = "lightbench".to_owned();

@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod bench_frame;
+mod bench_pipelines;
 mod check_pipeline;
 mod compare;
 mod copy;

@@ -14,8 +14,8 @@
 //! - [`mod@reference`] has the shaders' formulas on the CPU.
 //!
 //! - [`capture`] takes a picture of a scene, [`inspect`] looks into its frame pass by pass,
-//!   [`experiment`] does both for scripts, [`measure`] times pipelines on it. They need a GPU; the
-//!   rest doesn't.
+//!   [`experiment`] does both for scripts, [`measure`] times pipelines on it, [`curves`] does so for
+//!   values of a parameter. They need a GPU; the rest doesn't.
 //!
 //! ```
 //! use lightbench_lab::{LdrImage, diff};
@@ -32,6 +32,7 @@
 
 pub mod capture;
 pub mod colormap;
+pub mod curves;
 pub mod diff;
 mod error;
 pub mod experiment;

@@ -6,12 +6,13 @@ use super::model::{Comparison, PipelineResult};
 use crate::statistics::Summary;
 
 /// A table in the making.
-struct Table {
+pub(crate) struct Table {
     text: String,
 }
 
 impl Table {
-    fn new(header: &[&str]) -> Self {
+    /// A table with its header line.
+    pub(crate) fn new(header: &[&str]) -> Self {
         let mut table = Self {
             text: String::new(),
         };
@@ -19,7 +20,8 @@ impl Table {
         table
     }
 
-    fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+    /// Adds a row.
+    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         for (i, cell) in cells.into_iter().enumerate() {
             if i > 0 {
                 self.text.push(',');
@@ -34,9 +36,14 @@ impl Table {
         }
         self.text.push_str("\r\n");
     }
+
+    /// The table so far.
+    pub(crate) fn text(self) -> String {
+        self.text
+    }
 }
 
-fn cell<T: ToString>(value: Option<T>) -> String {
+pub(crate) fn cell<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(String::new, |v| v.to_string())
 }
 

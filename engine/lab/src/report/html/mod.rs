@@ -10,7 +10,7 @@ mod passes;
 mod pictures;
 mod provenance;
 mod table;
-mod writer;
+pub(crate) mod writer;
 
 use self::writer::Writer;
 use super::analysis::Analysis;
