@@ -22,8 +22,11 @@ use lightbench::lab::report::Machine;
 /// Width and height of all pictures.
 const SIZE: (u32, u32) = (1280, 720);
 
+/// Measures, and says what it found.
+type Measurement = fn(&mut Bars);
+
 /// The measurements by name.
-const ALL: [(&str, fn(&mut Bars)); 5] = [
+const ALL: [(&str, Measurement); 5] = [
     ("by_hand", by_hand::run),
     ("sums", sums::run),
     ("culling", culling::run),

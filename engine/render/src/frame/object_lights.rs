@@ -24,7 +24,7 @@ impl Frame {
             ObjectLights::Gathered => {
                 let first = self.object_lights.len() as u32;
                 let space = Space::of(objects, row);
-                self.reach.find(&space, lights, &mut self.object_lights);
+                self.reach.find(&space, &mut self.object_lights);
                 (first, self.object_lights.len() as u32 - first)
             }
         }
@@ -62,7 +62,7 @@ impl Frame {
         for (at, entry) in order.iter().enumerate() {
             self.found.clear();
             let space = Space::of(objects, entry.row);
-            self.reach.find(&space, lights, &mut self.found);
+            self.reach.find(&space, &mut self.found);
             pairs.add(at as u32, &self.found);
         }
         pairs.sort();

@@ -29,18 +29,27 @@ impl Space {
     }
 
     /// Distance from the light to the box, by clamping (Arvo 1990, Graphics Gems).
-    fn is_reached(&self, light: &LightData) -> bool {
-        let outside = ((light.position - self.center).abs() - self.half).max(Vec3::ZERO);
-        !volumes::is_bounded(light) || outside.length_squared() < light.range * light.range
+    fn is_reached(&self, span: &Span) -> bool {
+        let outside = ((span.position - self.center).abs() - self.half).max(Vec3::ZERO);
+        outside.length_squared() < span.range_squared
     }
+}
+
+/// A light with a range: what the test of a box needs of it, side by side.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    /// Where it begins along the axis.
+    begin: f32,
+    light: u32,
+    position: Vec3,
+    range_squared: f32,
 }
 
 /// Lights in the order in which they begin along an axis. Keeps its memory.
 #[derive(Default)]
 pub(super) struct Reach {
     axis: usize,
-    /// Where each begins, and its index.
-    begins: Vec<(f32, u32)>,
+    spans: Vec<Span>,
     /// From the beginning of the longest to its end.
     longest: f32,
     /// Lights without a range.
@@ -50,7 +59,7 @@ pub(super) struct Reach {
 impl Reach {
     /// Takes those of the lights whose index is wanted.
     pub fn fill(&mut self, lights: &[LightData], wanted: impl Fn(u32) -> bool) {
-        self.begins.clear();
+        self.spans.clear();
         self.everywhere.clear();
         self.longest = 0.0;
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -65,30 +74,34 @@ impl Reach {
                 // A little longer than it is, so that rounding loses none.
                 let at = light.position[self.axis];
                 let half = light.range * 1.001 + at.abs() * 1e-6;
-                self.begins.push((at - half, index));
+                self.spans.push(Span {
+                    begin: at - half,
+                    light: index,
+                    position: light.position,
+                    range_squared: light.range * light.range,
+                });
                 self.longest = self.longest.max(2.0 * half);
             } else {
                 self.everywhere.push(index);
             }
         }
-        self.begins.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        self.spans
+            .sort_unstable_by(|a, b| a.begin.total_cmp(&b.begin));
     }
 
     /// Adds the indices of the lights that reach a box, in ascending order.
-    pub fn find(&self, space: &Space, lights: &[LightData], found: &mut Vec<u32>) {
+    pub fn find(&self, space: &Space, found: &mut Vec<u32>) {
         let first = found.len();
         found.extend(&self.everywhere);
         let (at, half) = (space.center[self.axis], space.half[self.axis]);
         // The longest is added with its rounding.
         let low = (at - half) - self.longest * 1.001;
-        let begin = self.begins.partition_point(|(begin, _)| *begin < low);
-        let candidates = self.begins[begin..]
+        let begin = self.spans.partition_point(|span| span.begin < low);
+        let candidates = self.spans[begin..]
             .iter()
-            .take_while(|(begin, _)| *begin <= at + half);
-        found.extend(candidates.filter_map(|(_, index)| {
-            let light = &lights[*index as usize];
-            space.is_reached(light).then_some(*index)
-        }));
+            .take_while(|span| span.begin <= at + half);
+        let reaching = candidates.filter(|span| space.is_reached(span));
+        found.extend(reaching.map(|span| span.light));
         found[first..].sort_unstable();
     }
 }
@@ -239,17 +252,22 @@ mod tests {
     fn the_lights_found_are_those_of_a_test_of_all() {
         let lights = lights(300);
         let mut reach = Reach::default();
-        for wanted in [|_| true, |index: u32| index % 3 == 0] {
+        for wanted in [|_| true, |index: u32| index.is_multiple_of(3)] {
             reach.fill(&lights, wanted);
             let mut total = 0;
             for space in spaces(500) {
                 let all = (0_u32..).zip(&lights);
+                let reached = |light: &LightData| {
+                    let outside = (light.position - space.center).abs() - space.half;
+                    let outside = outside.max(Vec3::ZERO).length_squared();
+                    !volumes::is_bounded(light) || outside < light.range * light.range
+                };
                 let expected: Vec<u32> = all
-                    .filter(|(index, light)| wanted(*index) && space.is_reached(light))
+                    .filter(|(index, light)| wanted(*index) && reached(light))
                     .map(|(index, _)| index)
                     .collect();
                 let mut found = vec![9];
-                reach.find(&space, &lights, &mut found);
+                reach.find(&space, &mut found);
                 assert_eq!(found[0], 9, "what was there stays");
                 assert_eq!(found[1..], expected);
                 total += expected.len();
@@ -259,7 +277,7 @@ mod tests {
         }
         reach.fill(&[], |_| true);
         let mut found = Vec::new();
-        reach.find(&spaces(1)[0], &[], &mut found);
+        reach.find(&spaces(1)[0], &mut found);
         assert!(found.is_empty());
     }
 
@@ -268,7 +286,7 @@ mod tests {
         let lights = lights(7);
         let mut pairs = Pairs::default();
         // Lights 0, 1, 2, 4, 5 in groups of two: (0, 1), (2, 4), (5).
-        pairs.begin(&lights, 2, |light| volumes::is_bounded(light));
+        pairs.begin(&lights, 2, volumes::is_bounded);
         assert!(!pairs.is_shown(3) && pairs.is_shown(5));
         pairs.add(0, &[1, 4, 5]);
         pairs.add(1, &[0, 1, 2]);
