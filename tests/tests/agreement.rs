@@ -479,23 +479,6 @@ fn every_shipped_pipeline_is_compared() {
     }
 }
 
-/// Each pipeline says of each reflection model whether it carries it, and why.
-#[test]
-fn every_shipped_pipeline_tells_of_every_reflection_model() {
-    for pipeline in list_pipelines(&Files::shipped()).unwrap() {
-        let desc = load_pipeline(&Files::shipped(), &pipeline.name, &settings(&[])).unwrap();
-        for model in ReflectionModel::ALL {
-            let told = desc.ability(&format!("brdf_{model}"));
-            let sentence = told.map_or("", |ability| ability.text.as_str());
-            assert!(
-                sentence.ends_with('.'),
-                "{} says nothing of {model}",
-                pipeline.name
-            );
-        }
-    }
-}
-
 /// Must-fail twins: the comparison sees a shifted pixel column and a missing light.
 #[test]
 fn the_comparison_notices_what_must_not_pass() {

@@ -1,8 +1,10 @@
 //! Options that only change what a picture costs change no pixel of it.
 #![allow(clippy::unwrap_used)]
 
+use lightbench::render::{Renderer, Variants};
+use lightbench::script::load_pipeline;
 use lightbench_tests::compare::{close, order_bound, relative_difference};
-use lightbench_tests::{Studio, settings};
+use lightbench_tests::{Studio, gpu, project_with_mistake, settings};
 
 const SIZE: (u32, u32) = (320, 180);
 
@@ -109,5 +111,28 @@ fn options_that_only_change_the_cost_change_no_pixel() {
     ] {
         let other = hdr("deferred_shading", &[texts, &[full]].concat());
         close(&deferred, &other, &format!("{texts:?}"));
+    }
+}
+
+/// The shader that marks is no pass's own, and still somebody may edit it.
+#[test]
+fn a_marking_shader_without_a_fragment_stage_is_told() {
+    let mistake = ("shaders/mark.wgsl", "@fragment\nfn fragment_main() {}", "");
+    let (_folder, files) = project_with_mistake(&[], mistake);
+    let compiler = || Renderer::new(gpu(false)).compiler();
+    for (pipeline, text) in [
+        ("deferred_shading", "volume_stencil=inverse"),
+        ("forward_multi_pass", "stencil_mask=on"),
+    ] {
+        let desc = load_pipeline(&files, pipeline, &settings(&[text])).unwrap();
+        let compiled = compiler().compile_for(&files, &desc, Variants::DEFAULT_MODEL);
+        let problems = compiled.map(|_| ()).unwrap_err();
+        let problem = &problems.0[0];
+        assert_eq!(
+            problem.place.to_string(),
+            "shaders/mark.wgsl:1:1",
+            "{problem}"
+        );
+        assert_eq!(problem.message, "the shader has no `fragment_main`");
     }
 }

@@ -14,6 +14,7 @@
 
 pub mod abilities;
 mod api;
+mod arguments;
 mod color;
 mod compile;
 mod errors;

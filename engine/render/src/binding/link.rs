@@ -150,18 +150,24 @@ fn gives(vertex: &EntryPoint, path: &str) -> String {
     }
 }
 
+/// Checks that a shader which no pass names, but which passes need, has a fragment stage.
+///
+/// # Errors
+/// It has none.
+pub fn shades(path: &str, reflection: &Reflection) -> Result<(), Problem> {
+    if reflection.has_fragment {
+        return Ok(());
+    }
+    let message = format!("the shader has no `{FRAGMENT_ENTRY}`");
+    Err(Problem::new(Place::new(path, 1, 1), message).with_hint("copy the shipped file again"))
+}
+
 /// Checks the shader of `mips` passes: it reads the larger level, and nothing else.
 ///
 /// # Errors
 /// The first thing that is not as the pass needs it.
 pub fn links_mips(path: &str, reflection: &Reflection, kind: SampleKind) -> Result<(), Problem> {
-    if !reflection.has_fragment {
-        return Err(Problem::new(
-            Place::new(path, 1, 1),
-            format!("the shader has no `{FRAGMENT_ENTRY}`"),
-        )
-        .with_hint("copy the shipped file again"));
-    }
+    shades(path, reflection)?;
     for variable in &reflection.variables {
         let fits = match &variable.kind {
             BindingKind::Texture(texture) => {

@@ -15,7 +15,7 @@ mod stages;
 
 pub use layout::target_layout;
 pub use limits::check_shader;
-pub use link::{Reflected, check_vertices, link, links_mips};
+pub use link::{Reflected, check_vertices, link, links_mips, shades};
 pub use provided::{EngineBuffer, Provided, provided};
 
 use crate::description::{PassDesc, PipelineDesc, Slice};

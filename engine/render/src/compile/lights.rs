@@ -5,6 +5,7 @@ use wgpu::{CompareFunction, Face, StencilOperation};
 
 use super::state::{Channels, State, marking, stencil_mark, stencil_test, take_counted};
 use super::{Compiler, FULL_SCREEN, FULLSCREEN_VERTEX, LIGHT_VERTEX, PassLayout};
+use crate::binding::shades;
 use crate::description::{LightStencil, Lights, PassDesc, PipelineDesc, ShaderDesc};
 use crate::gpu_pipelines::{
     DrawPipeline, LightPipelines, LightsPipelines, PassPipelines, StencilPipelines,
@@ -130,6 +131,8 @@ impl Compiler {
             defines: Vec::new(),
             define_places: Vec::new(),
         };
+        let marks = self.load(files, MARK_SHADER, state.fragment_defines, &shader.defines)?;
+        shades(MARK_SHADER, &marks.reflection)?;
         self.build(files, desc, pass, Some(&shader), layout, state)
     }
 }

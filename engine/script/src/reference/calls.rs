@@ -53,7 +53,8 @@ pub(crate) const CALLS: &[&str] = &[
     "dot(column_of([vec3(1, 2, 3)]), vec3(3, 2, 1)) + normalize(column_of([vec3(0, 3, 4)])).z",
 ];
 
-/// Calls that take no numbers, or need files. Each is run in a project that has what they name.
+/// Calls that take no numbers, or need files. Each is run in a project that has what they name: a
+/// picture, a model, a behaviour.
 pub(crate) const OTHER_CALLS: &[&str] = &[
     "param(\"height\", 1.5, 0, 4, \"How high the lamp hangs, in metres\")",
     "spawn(\"lamp\"); entity(\"lamp\").name",
@@ -90,6 +91,9 @@ pub(crate) const OTHER_CALLS: &[&str] = &[
     "point_light(\"lamp\"); entities().with(\"light\").tag(\"dark\").drop(\"light\").count",
     "let heights = column_of([1, 4, 2]); [heights.to_array(), heights.average(), heights.smallest(), heights.largest()]",
     "let points = column_of([vec3(1, 0, 0), vec3(0, 3, 4)]); [cross(points, vec3(0, 1, 0)).to_array(), distance(points, vec3(0, 0, 0)).to_array()]",
+    "load_obj(\"cup.obj\").at(0, 1, 0).position",
+    "load_model(\"cup.obj\").scale(2).position",
+    "spawn(\"cup\").mesh(model_mesh(\"cup.obj\", 0)).position",
     "[key_down(\"left\"), keys_down(), pointer()]",
     "pick(vec3(0, 1, 5), vec3(0, 0, -1))",
 ];

@@ -24,12 +24,13 @@ use lightbench_world::scene_file::{self, AssetNames, Definition, SceneError};
 use lightbench_world::{MeshRenderer, World};
 use rhai::{Dynamic, Scope};
 
+use super::Scene;
 use super::data::Stage;
+use super::load::host;
 use super::materials::Material;
 use super::recipes::{self, MeshRecipe, Recipes};
 use super::shapes::{MeshHandle, Shape};
 use super::textures::Pattern;
-use super::{Scene, host};
 use crate::api::{Api, Mistake};
 use crate::host::Host;
 use crate::limits::Limits;

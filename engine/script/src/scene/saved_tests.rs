@@ -4,6 +4,7 @@
 use lightbench_world::{Entity, MeshRenderer};
 
 use super::*;
+use crate::settings::Settings;
 use crate::testing::project;
 
 /// A square of two triangles, its material and its picture.

@@ -4,6 +4,7 @@ use lightbench_world::glam::Vec3;
 use lightbench_world::{Light, LightKind, MeshRenderer, Name, Transform};
 
 use super::*;
+use crate::settings::Settings;
 use crate::testing::project;
 
 fn load(text: &str) -> Result<Scene, Problems> {

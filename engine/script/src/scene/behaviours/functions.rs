@@ -3,9 +3,9 @@
 use lightbench_world::{Behaviour, Entity, Parameters, Value};
 use rhai::Dynamic;
 
-use super::super::data::Stage;
+use super::super::data::{Data, Stage};
 use super::super::entities::method;
-use super::{BEHAVIOURS, Message};
+use super::{BEHAVIOURS, MOST_MESSAGES, Message};
 use crate::api::{Api, Arguments, Mistake, as_number};
 use crate::host::find;
 
@@ -48,7 +48,7 @@ pub(crate) fn register(api: &mut Api, stage: &Stage) {
             let message = message(Some(entity), a)?;
             let mut data = stage.lock();
             data.check(entity)?;
-            data.messages.push(message);
+            post(&mut data, message)?;
             Ok(entity)
         });
     }
@@ -57,10 +57,19 @@ pub(crate) fn register(api: &mut Api, stage: &Stage) {
         let stage = stage.clone();
         api.function(form, about, move |a| {
             let message = message(None, a)?;
-            stage.lock().messages.push(message);
-            Ok(())
+            post(&mut stage.lock(), message)
         });
     }
+}
+
+fn post(data: &mut Data, message: Message) -> Result<(), Mistake> {
+    if data.messages.len() >= MOST_MESSAGES {
+        return Err(Mistake::new(format!(
+            "more than {MOST_MESSAGES} messages wait: does each answer to a message send others?"
+        )));
+    }
+    data.messages.push(message);
+    Ok(())
 }
 
 fn message(to: Option<Entity>, a: &Arguments) -> Result<Message, Mistake> {

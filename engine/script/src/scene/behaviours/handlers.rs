@@ -67,7 +67,7 @@ impl Event {
 #[derive(Default)]
 pub(super) struct Handlers([Option<AST>; HANDLERS.len()]);
 
-/// The name of the module of a slot. No script can spell it.
+/// The name of the module of a slot.
 pub(super) fn module(slot: usize) -> String {
     format!("behaviour_{slot}")
 }

@@ -17,6 +17,8 @@ use lightbench_world::{Behaviour, Entity, Parameters, Value};
 use rhai::{Dynamic, Module, Scope};
 
 use super::data::{Data, Stage};
+use super::input::Happened;
+use super::picking::pick;
 use super::state::State;
 use crate::api::Mistake;
 use crate::host::{Host, Variables};
@@ -34,6 +36,10 @@ pub(super) struct Starting {
     pub(super) settings: Settings,
     pub(super) parameters: Vec<SceneParameter>,
 }
+
+/// Messages that may wait for delivery: two behaviours that answer each broadcast with another would
+/// double them in each step.
+pub(super) const MOST_MESSAGES: usize = 10_000;
 
 /// A message on its way.
 #[derive(Clone, Debug)]
@@ -87,6 +93,8 @@ struct Instance {
     slot: usize,
     /// After an error it is not called again.
     stopped: bool,
+    /// Whether its entity still has it; for [`Behaviours::start_and_end`].
+    goes_on: bool,
 }
 
 /// What somebody outside sees of a behaviour.
@@ -106,6 +114,8 @@ pub struct BehaviourInfo {
 #[derive(Default)]
 pub(super) struct Behaviours {
     instances: Vec<Instance>,
+    /// Where the behaviour of each entity is.
+    places: HashMap<Entity, usize>,
     at_work: AtWork,
     /// Modules that no instance uses any more.
     free: Vec<usize>,
@@ -144,17 +154,12 @@ impl Behaviours {
     /// One step: starts what is new, ends what is gone, tells what happened, and updates all.
     pub(super) fn step(&mut self, host: &mut Host, stage: &Stage, time: f64, dt: f64) {
         self.start_and_end(host, stage);
-        if self.instances.is_empty() {
-            return;
-        }
         let events = stage.lock().input.take();
         for event in events {
             match event {
-                super::input::Happened::Key(key) => {
-                    self.tell_all(host, stage, &Event::Key(key));
-                }
-                super::input::Happened::Click(ray) => {
-                    let hit = super::picking::pick(&stage.lock(), ray);
+                Happened::Key(key) => self.tell_all(host, stage, &Event::Key(key)),
+                Happened::Click(ray) => {
+                    let hit = pick(&stage.lock(), ray);
                     if let Some(hit) = hit {
                         self.tell(host, stage, hit.entity, &Event::Click(hit.point));
                     }
@@ -175,108 +180,108 @@ impl Behaviours {
     }
 
     /// Starts the behaviours of entities that have got one, and ends those of entities that lost it,
-    /// or have another now.
+    /// or have another now. In a step in which nothing changed it takes no memory.
     pub(super) fn start_and_end(&mut self, host: &mut Host, stage: &Stage) {
-        let wanted: Vec<(Entity, Behaviour)> = {
+        let mut begun = Vec::new();
+        {
             let data = stage.lock();
             let columns = data.world.columns::<Behaviour>();
-            if columns.is_empty() && self.instances.is_empty() {
-                return;
+            let rows = columns.slices();
+            let mut going_on = 0;
+            for instance in &mut self.instances {
+                instance.goes_on = false;
             }
-            let entities = columns.entities().iter().copied();
-            entities
-                .filter_map(|entity| Some((entity, data.world.get(entity)?)))
-                .collect()
-        };
-        let wanted_of: HashMap<Entity, &Behaviour> =
-            wanted.iter().map(|(entity, row)| (*entity, row)).collect();
-        let free = &mut self.free;
-        self.instances.retain(|instance| {
-            let kept = wanted_of.get(&instance.entity).is_some_and(|row| {
-                (&row.script, &row.parameters)
-                    == (&instance.component.script, &instance.component.parameters)
-            });
-            if !kept {
-                free.push(instance.slot);
+            for (row, &entity) in columns.entities().iter().enumerate() {
+                let (script, parameters) = (&rows.script[row], &rows.parameters[row]);
+                let known = self.places.get(&entity).map(|&at| &mut self.instances[at]);
+                let is_same = |instance: &&mut Instance| {
+                    let component = &instance.component;
+                    component.script == *script && component.parameters == *parameters
+                };
+                match known.filter(is_same) {
+                    Some(instance) => {
+                        instance.component.enabled = rows.enabled[row];
+                        instance.goes_on = true;
+                        going_on += 1;
+                    }
+                    None => {
+                        let component = Behaviour {
+                            script: script.clone(),
+                            parameters: parameters.clone(),
+                            enabled: rows.enabled[row],
+                        };
+                        begun.push((entity, component));
+                    }
+                }
             }
-            kept
-        });
-        for instance in &mut self.instances {
-            if let Some(row) = wanted_of.get(&instance.entity) {
-                instance.component.enabled = row.enabled;
+            if going_on < self.instances.len() {
+                let free = &mut self.free;
+                self.instances.retain(|instance| {
+                    if !instance.goes_on {
+                        free.push(instance.slot);
+                    }
+                    instance.goes_on
+                });
+                let places = self.instances.iter().enumerate();
+                self.places = places.map(|(at, one)| (one.entity, at)).collect();
             }
         }
-        let known: HashMap<Entity, ()> = self
-            .instances
-            .iter()
-            .map(|instance| (instance.entity, ()))
-            .collect();
-        for (entity, component) in wanted {
-            if known.contains_key(&entity) {
-                continue;
-            }
+        for (entity, component) in begun {
             let slot = self.free.pop().unwrap_or_else(|| {
                 self.slots += 1;
                 self.slots - 1
             });
-            match self.start(host, stage, entity, component, slot) {
-                Ok(instance) => {
-                    self.instances.push(instance);
-                    self.tell(host, stage, entity, &Event::Init);
-                }
-                Err(problems) => self.problems.extend(problems.0),
+            let mut instance = Instance {
+                entity,
+                component,
+                parameters: Vec::new(),
+                state: State::default(),
+                handlers: Handlers::default(),
+                slot,
+                stopped: false,
+                goes_on: true,
+            };
+            if let Err(problems) = self.start(host, stage, &mut instance) {
+                // It stays, so that it is not tried again until it changes.
+                instance.stopped = true;
+                self.problems.extend(problems.0);
             }
+            self.places.insert(entity, self.instances.len());
+            self.instances.push(instance);
+            self.tell(host, stage, entity, &Event::Init);
         }
     }
 
-    /// Runs a behaviour's file for an entity. One that fails is there, and is not called.
+    /// Runs a behaviour's file for an entity.
     fn start(
         &self,
         host: &mut Host,
         stage: &Stage,
-        entity: Entity,
-        component: Behaviour,
-        slot: usize,
-    ) -> Result<Instance, Problems> {
-        let state = State::default();
-        let mut instance = Instance {
-            entity,
-            parameters: Vec::new(),
-            state: state.clone(),
-            handlers: Handlers::default(),
-            slot,
-            stopped: true,
-            component,
-        };
-        let path = instance.component.script.clone();
+        instance: &mut Instance,
+    ) -> Result<(), Problems> {
+        let path = &instance.component.script;
         let settings = settings(&instance.component.parameters);
-        let mut run = || -> Result<(), Problems> {
-            let ast = host.load(&path)?;
-            let module = handlers::module(slot);
-            instance.handlers = Handlers::find(host, &path, &module)?;
-            stage.lock().starting = Some(Starting {
-                settings: settings.clone(),
-                parameters: Vec::new(),
-            });
-            self.at_work.set(Some((entity, state.clone())));
-            host.watch.start(host.compiler.limits.load_time);
-            let made = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine);
-            self.at_work.set(None);
-            let starting = stage.lock().starting.take().unwrap_or_default();
-            let made = made.map_err(|error| host.compiler.explain(&error, &path))?;
-            let problems = undeclared("behaviour", &path, &starting.parameters, &settings);
-            if !problems.is_empty() {
-                return Err(Problems(problems));
-            }
-            instance.parameters = starting.parameters;
-            host.engine.register_static_module(module, made.into());
-            instance.stopped = false;
-            Ok(())
-        };
-        match run() {
-            Ok(()) => Ok(instance),
-            Err(problems) => Err(problems),
+        let ast = host.load(path)?;
+        let module = handlers::module(instance.slot);
+        instance.handlers = Handlers::find(host, path, &module)?;
+        stage.lock().starting = Some(Starting {
+            settings: settings.clone(),
+            parameters: Vec::new(),
+        });
+        let now = (instance.entity, instance.state.clone());
+        self.at_work.set(Some(now));
+        host.watch.start(host.compiler.limits.load_time);
+        let made = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine);
+        self.at_work.set(None);
+        let starting = stage.lock().starting.take().unwrap_or_default();
+        let made = made.map_err(|error| host.compiler.explain(&error, path))?;
+        let problems = undeclared("behaviour", path, &starting.parameters, &settings);
+        if !problems.is_empty() {
+            return Err(Problems(problems));
         }
+        instance.parameters = starting.parameters;
+        host.engine.register_static_module(module, made.into());
+        Ok(())
     }
 
     fn tell_all(&mut self, host: &Host, stage: &Stage, event: &Event) {
@@ -286,8 +291,7 @@ impl Behaviours {
     }
 
     fn tell(&mut self, host: &Host, stage: &Stage, entity: Entity, event: &Event) {
-        let found = self.instances.iter().position(|i| i.entity == entity);
-        if let Some(index) = found {
+        if let Some(&index) = self.places.get(&entity) {
             self.call(host, stage, index, event);
         }
     }
@@ -328,7 +332,7 @@ impl Behaviours {
         name: &str,
         value: &SettingValue,
     ) -> Result<(), String> {
-        let instance = self.instances.iter().find(|i| i.entity == entity);
+        let instance = self.places.get(&entity).map(|&at| &self.instances[at]);
         let instance = instance.ok_or("the entity has no behaviour")?;
         let parameter = instance.parameters.iter().find(|p| p.name == name);
         let parameter = parameter.ok_or_else(|| format!("there is no parameter `{name}`"))?;

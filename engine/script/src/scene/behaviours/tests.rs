@@ -181,6 +181,46 @@ fn mistakes_name_the_file_and_the_way_out() {
     }
 }
 
+/// One that can't begin is told once, and tried again when it changes; also in the middle of a run.
+#[test]
+fn a_behaviour_that_cannot_begin_is_told_once() {
+    let (_folder, mut scene) = good(
+        "spawn(\"a\");
+        fn update(time, dt) {
+            if time == 1 { entity(\"a\").behave(\"climb\", #{ speed: 30 }); }
+            if time == 4 { entity(\"a\").behave(\"climb\", #{ speed: 3 }); }
+        }",
+        &[("climb", CLIMB)],
+    );
+    let told: Vec<bool> = (1..6)
+        .map(|time| scene.update(f64::from(time), STEP).is_err())
+        .collect();
+    assert_eq!(told, [true, false, false, false, false]);
+    assert_eq!(place(&scene, "a").x, 2.0, "it runs since the fourth step");
+    assert!(!scene.behaviours()[0].stopped);
+}
+
+#[test]
+fn messages_that_multiply_are_stopped_and_those_to_nobody_go() {
+    let (_folder, mut scene) = good(
+        "for i in 0..3 { spawn().behave(\"echo\"); }
+        broadcast(\"begin\");",
+        &[("echo", "fn on_message(name) { broadcast(name); }")],
+    );
+    let problem = (1..20).find_map(|step| scene.update(f64::from(step), STEP).err());
+    let message = problem.unwrap().message;
+    assert!(
+        message.starts_with("more than 10000 messages wait"),
+        "{message}"
+    );
+
+    let (_folder, mut scene) = good(
+        "fn update(time, dt) { for i in 0..6000 { broadcast(\"hello\"); } }",
+        &[],
+    );
+    run(&mut scene, 3);
+}
+
 #[test]
 fn keys_and_clicks_reach_behaviours() {
     let listen = "

@@ -6,6 +6,7 @@ mod fields;
 mod selections;
 
 use super::*;
+use crate::settings::Settings;
 use crate::testing::project;
 
 fn load(text: &str) -> Result<Scene, Problems> {
