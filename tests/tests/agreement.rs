@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use lightbench::assets::files::Files;
-use lightbench::assets::{ReflectionModel, ReflectionModels};
+use lightbench::assets::ReflectionModels;
 use lightbench::lab::{HdrImage, diff};
 use lightbench::render::TargetImage;
 use lightbench::script::{list_pipelines, load_pipeline};
