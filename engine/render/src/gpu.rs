@@ -4,6 +4,8 @@ use std::sync::{Arc, Mutex};
 
 use wgpu::{Backends, DeviceType, Features, Limits};
 
+use crate::heap;
+
 /// How to choose and open an adapter.
 #[derive(Clone, Debug, Default)]
 pub struct GpuOptions {
@@ -255,6 +257,9 @@ impl Gpu {
     /// [`GpuError::Device`] when the driver refuses.
     pub fn from_adapter(adapter: wgpu::Adapter, options: &GpuOptions) -> Result<Self, GpuError> {
         let summary = summarize(&adapter);
+        if summary.software {
+            heap::keep_freed_memory();
+        }
         let wanted = if options.portable {
             Features::TIMESTAMP_QUERY
         } else {

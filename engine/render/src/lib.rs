@@ -19,6 +19,7 @@ pub mod gpu;
 pub mod gpu_data;
 pub mod gpu_pipelines;
 pub mod guard;
+pub mod heap;
 pub mod heat_map;
 pub mod inspect;
 pub mod layout;

@@ -6,10 +6,10 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use lightbench::assets::files::Files;
-use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems, Variants};
+use lightbench::render::{Compiler, Pipeline, PipelineDesc, Problems, Variants, heap};
 use lightbench::script::{Settings, load_pipeline};
 
-use super::{Wake, heaps};
+use super::Wake;
 
 /// Builds one pipeline with some values for its parameters.
 #[derive(Clone, Debug)]
@@ -136,7 +136,7 @@ impl Worker {
     fn run(&mut self, inbox: &Receiver<Order>, outbox: &Sender<Answer>, wake: &Wake) {
         loop {
             if self.queue.is_empty() {
-                heaps::give_back_holes();
+                heap::give_back_holes();
                 match inbox.recv() {
                     Ok(order) => self.take(order),
                     Err(_) => return,

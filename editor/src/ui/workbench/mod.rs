@@ -11,7 +11,6 @@ pub mod compiling;
 mod drawing;
 mod extent;
 pub mod fields;
-mod heaps;
 pub mod library;
 pub mod log;
 pub mod pipelines;
