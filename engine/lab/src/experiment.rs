@@ -1,5 +1,7 @@
 //! The laboratory of experiments: what [`FrameInspector`] can do, for scripts.
 
+mod measuring;
+
 use lightbench_assets::Progress;
 use lightbench_assets::cache::Cache;
 use lightbench_assets::files::Files;
@@ -8,8 +10,8 @@ use lightbench_render::{
     Compiler, Gpu, GpuOptions, Pipeline, PipelineDesc, Problems, RenderError, Renderer, TargetImage,
 };
 use lightbench_script::{
-    Laboratory, LaboratoryError, Limits, LogLine, Scene, Settings, Shot, load_pipeline,
-    load_scene_within,
+    Chart, Cost, Laboratory, LaboratoryError, Limits, LogLine, Scene, Settings, Shot, Task,
+    load_pipeline, load_scene_within,
 };
 
 use crate::capture::STEP;
@@ -93,12 +95,7 @@ impl Workbench {
         shot: &Shot,
         look: impl FnOnce(&mut FrameInspector<'_>) -> Result<T, RenderError>,
     ) -> Result<T, LaboratoryError> {
-        if self.device.is_none() {
-            let gpu = Gpu::open(&self.gpu).map_err(RenderError::from)?;
-            let renderer = Renderer::new(gpu);
-            let compiler = renderer.compiler();
-            self.device = Some(Device { renderer, compiler });
-        }
+        self.open()?;
         self.bring_scene(shot)?;
         self.bring_pipeline(shot)?;
         let (Some(device), Some(staged), Some(compiled)) = (
@@ -123,6 +120,25 @@ impl Workbench {
         );
         let found = look(&mut inspector);
         drop(inspector);
+        self.tell_warnings();
+        Ok(found?)
+    }
+
+    /// Opens the device, the first time.
+    fn open(&mut self) -> Result<(), LaboratoryError> {
+        if self.device.is_none() {
+            let gpu = Gpu::open(&self.gpu).map_err(RenderError::from)?;
+            let renderer = Renderer::new(gpu);
+            let compiler = renderer.compiler();
+            self.device = Some(Device { renderer, compiler });
+        }
+        Ok(())
+    }
+
+    fn tell_warnings(&mut self) {
+        let Some(device) = &mut self.device else {
+            return;
+        };
         for warning in device.renderer.take_warnings() {
             // Each look begins anew, and would warn anew.
             if !self.warned.contains(&warning) {
@@ -130,7 +146,6 @@ impl Workbench {
                 (self.tell)(Remark::Warning(warning));
             }
         }
-        Ok(found?)
     }
 
     /// Brings the shot's scene to its moment, and puts it last.
@@ -251,6 +266,22 @@ impl Laboratory for Workbench {
 
     fn first_invalid(&mut self, shot: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError> {
         self.look(shot, |inspector| inspector.first_invalid())
+    }
+
+    fn measure(&mut self, task: &Task) -> Result<Vec<Cost>, LaboratoryError> {
+        self.measure_task(task)
+    }
+
+    fn compare(
+        &self,
+        reference: &TargetImage,
+        image: &TargetImage,
+    ) -> Result<Vec<(&'static str, f64)>, LaboratoryError> {
+        measuring::compare(reference, image)
+    }
+
+    fn plot(&self, chart: &Chart) -> Vec<u8> {
+        crate::curves::chart(chart).into_bytes()
     }
 
     fn encode(

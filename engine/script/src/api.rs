@@ -88,6 +88,37 @@ impl<'a> Api<'a> {
         self.register(&entry.name.clone(), &types, entry, 0, body);
     }
 
+    /// Registers a plain function that calls a function of the script, whose errors are told as they are.
+    pub(crate) fn calling_function<R: Variant + Clone>(
+        &mut self,
+        form: &str,
+        about: &'static str,
+        body: impl Fn(&mut Arguments) -> Result<R, Box<EvalAltResult>> + Send + Sync + 'static,
+    ) {
+        let entry = Arc::new(Entry::new(None, form, false, about));
+        let types = vec![TypeId::of::<Dynamic>(); entry.arguments.len()];
+        self.names.add(Entry::clone(&entry));
+        self.raw(&entry.name.clone(), &types, entry, 0, body);
+    }
+
+    /// Registers a method of `T` that calls a function of the script.
+    pub(crate) fn calling_method<T: ScriptType, R: Variant + Clone>(
+        &mut self,
+        form: &str,
+        about: &'static str,
+        body: impl Fn(T, &mut Arguments) -> Result<R, Box<EvalAltResult>> + Send + Sync + 'static,
+    ) {
+        let entry = Arc::new(Entry::new(Some(T::NAME), form, false, about));
+        let mut types = vec![TypeId::of::<Dynamic>(); entry.arguments.len() + 1];
+        types[0] = TypeId::of::<T>();
+        self.names.add(Entry::clone(&entry));
+        let body = move |arguments: &mut Arguments| {
+            let receiver = arguments.receiver::<T>()?;
+            body(receiver, arguments)
+        };
+        self.raw(&entry.name.clone(), &types, entry, 1, body);
+    }
+
     /// Registers a function in place of Rhai's own of the same name, which is bound to the types
     /// that it takes: one copy for each mixture of whole numbers and others.
     pub(crate) fn overload(
@@ -155,7 +186,7 @@ impl<'a> Api<'a> {
         let entry = Arc::new(Entry::new(Some(T::NAME), name, true, ""));
         let types = [TypeId::of::<T>(), TypeId::of::<Dynamic>()];
         let name = format!("set${name}");
-        let body = move |arguments: &mut Arguments| {
+        let body = move |arguments: &mut Arguments| -> Result<(), Mistake> {
             let mut object = arguments.receiver::<T>()?;
             body(&mut object, arguments)?;
             if let Some(mut place) = arguments.values[0].write_lock::<T>() {
@@ -225,13 +256,13 @@ impl<'a> Api<'a> {
         self.raw(name, types, entry, skip, body);
     }
 
-    fn raw<R: Variant + Clone>(
+    fn raw<R: Variant + Clone, E: Into<Box<EvalAltResult>>>(
         &mut self,
         name: &str,
         types: &[TypeId],
         entry: Arc<Entry>,
         skip: usize,
-        body: impl Fn(&mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
+        body: impl Fn(&mut Arguments) -> Result<R, E> + Send + Sync + 'static,
     ) {
         self.engine
             .register_raw_fn(name, types, move |context, values| {

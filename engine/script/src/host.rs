@@ -19,7 +19,7 @@ use crate::log::Log;
 use crate::names::Names;
 use crate::resolver::Resolver;
 use crate::sources::Sources;
-use crate::{color, math, noise, random};
+use crate::{color, division, easing, math, matrix, noise, random};
 
 /// An engine with the functions of one kind of script, and what it needs to run and to explain.
 pub(crate) struct Host {
@@ -72,6 +72,7 @@ impl Host {
         listen(&mut engine, &log);
         map_words(&mut engine);
         take_away(&mut engine);
+        division::take_over(&mut engine, &log);
         let mut globals = extras.variables.names;
         find_variables(&mut engine, extras.variables.find);
 
@@ -81,6 +82,9 @@ impl Host {
         }
         let mut api = Api::new(&mut engine, &mut names);
         math::register(&mut api);
+        matrix::register(&mut api);
+        easing::register(&mut api);
+        division::register(&mut api);
         color::register(&mut api);
         random::register(&mut api);
         noise::register(&mut api);

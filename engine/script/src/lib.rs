@@ -17,6 +17,8 @@ mod api;
 mod arguments;
 mod color;
 mod compile;
+mod division;
+mod easing;
 mod errors;
 mod experiment;
 mod host;
@@ -25,6 +27,7 @@ mod hostile_tests;
 mod limits;
 mod log;
 mod math;
+mod matrix;
 mod memory;
 #[cfg(test)]
 mod message_tests;
@@ -44,7 +47,8 @@ mod syntax;
 mod testing;
 
 pub use experiment::{
-    EXPERIMENTS, Laboratory, LaboratoryError, Shot, experiment_names, run_experiment,
+    Chart, ChartCurve, Cost, EXPERIMENTS, Laboratory, LaboratoryError, Shot, Task, TimeSpan,
+    experiment_names, run_experiment,
 };
 pub use limits::Limits;
 pub use log::LogLine;
@@ -53,7 +57,8 @@ pub use names::{Entry, Names};
 pub use parameters::{SceneParameter, SceneParameterKind};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
-    BEHAVIOURS, BehaviourInfo, Ray, SCENE_EXTENSION, SCENES, Scene, SceneEntry, SceneEvent,
-    list_scenes, load_scene, load_scene_within, scene_names,
+    BEHAVIOURS, BehaviourInfo, KeptState, PipelineWish, Ray, SCENE_EXTENSION, SCENES, Scene,
+    SceneEntry, SceneEvent, list_scenes, load_scene, load_scene_again, load_scene_within,
+    scene_names,
 };
 pub use settings::{SettingValue, Settings};

@@ -3,6 +3,7 @@
 //! Rhai's own functions take `1.0` where a person writes `1`; here every one of them takes both.
 //! `sin` and its kin work in radians, as in mathematics; what turns entities takes degrees.
 
+use lightbench_world::glam::dcamera::rh::view::look_to_quat;
 use lightbench_world::glam::{DQuat, DVec3, EulerRot};
 use rhai::Engine;
 
@@ -272,6 +273,30 @@ fn quaternions(api: &mut Api) {
                 .ok_or_else(|| Mistake::new("the axis of a rotation can't be zero"))?;
             Ok(DQuat::from_axis_angle(axis, degrees.to_radians()))
         },
+    );
+    api.function(
+        "turn_toward(direction)",
+        "The rotation that points what looks along -z, as cameras and spot lights do, in a direction, with \
+         its up side up.",
+        |a| {
+            let toward: DVec3 = a.object(0)?;
+            let toward = toward
+                .try_normalize()
+                .ok_or_else(|| Mistake::new("there is no turning toward a direction of length 0"))?;
+            // Straight up and down no side is up.
+            let up = if toward.y.abs() > 0.999_999 { DVec3::Z } else { DVec3::Y };
+            Ok(look_to_quat(toward, up).inverse())
+        },
+    );
+    api.getter(
+        "axis",
+        "The axis about which it turns, of length 1; x where it does not turn.",
+        |q: DQuat, _| Ok(q.to_axis_angle().0),
+    );
+    api.getter(
+        "angle",
+        "How far it turns about its axis, in degrees from 0 to 360.",
+        |q: DQuat, _| Ok(q.to_axis_angle().1.to_degrees()),
     );
     api.method("inverse()", "The rotation back.", |q: DQuat, _| {
         Ok(q.inverse())

@@ -393,6 +393,8 @@ fn every_function_of_numbers_is_tried_with_both() {
         "load_model",
         "model_mesh",
         "model_texture",
+        "keep",
+        "use_pipeline",
     ];
     let all = CALLS.join("\n");
     for entry in scene_names().entries() {

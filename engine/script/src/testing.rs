@@ -18,3 +18,22 @@ pub(crate) fn project(files: &[(&str, &str)]) -> (tempfile::TempDir, Files) {
     let store = Files::with_project(folder.path()).unwrap();
     (folder, store)
 }
+
+/// The numbers that a scene script prints, one a line.
+pub(crate) fn printed(script: &str) -> Vec<f64> {
+    let (_folder, store) = project(&[("scripts/scenes/test.rhai", script)]);
+    let loaded = crate::load_scene(
+        &store,
+        "test",
+        &crate::Settings::new(),
+        &lightbench_assets::Progress::new(),
+    );
+    let mut scene = loaded.unwrap_or_else(|problems| panic!("{problems}"));
+    let lines = scene.take_log().into_iter();
+    lines.map(|line| line.text.parse().unwrap()).collect()
+}
+
+/// The number that an expression is.
+pub(crate) fn value(expression: &str) -> f64 {
+    printed(&format!("print({expression});"))[0]
+}

@@ -28,7 +28,7 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
-use lightbench::script::{Ray, SceneEvent};
+use lightbench::script::{PipelineWish, Ray, Scene, SceneEvent};
 use lightbench::world::glam::Vec3;
 
 use self::camera::CameraRig;
@@ -307,6 +307,9 @@ impl Workbench {
         self.timings.stepped(scene.system_times());
         let animated = scene.moves();
         if again {
+            // Who works on a file has chosen what to look through.
+            scene.take_wish();
+
             self.clock.refresh();
         } else {
             self.clock.rewind();
@@ -316,6 +319,7 @@ impl Workbench {
             if let Some(distance) = self.typical_distance() {
                 self.camera.suit(distance);
             }
+            self.grant_wish();
         }
         self.canvas.invalidate();
     }
@@ -332,6 +336,7 @@ impl Workbench {
         for line in scene.take_log() {
             self.log.add(Level::Script, Some(line.place), line.text);
         }
+        self.grant_wish();
         if let Err(problem) = result {
             self.log.problem(&problem);
             self.scenes.set_problems(Some(Problems(vec![problem])));
@@ -339,6 +344,27 @@ impl Workbench {
             self.clock.playing &= still_moves;
         }
         self.canvas.invalidate();
+    }
+
+    /// Swaps to the pipeline that the scene's scripts ask for.
+    fn grant_wish(&mut self) {
+        let wish = self.scenes.scene_mut().and_then(Scene::take_wish);
+        let Some(PipelineWish { name, settings }) = wish else {
+            return;
+        };
+        let before = self.pipelines.shown().map(str::to_owned);
+        // A script may ask in each step; what is so already is not built again.
+        if self.pipelines.selected() != name {
+            self.pipelines.select(&name);
+        }
+        for (parameter, value) in settings.iter() {
+            let slot = self.pipelines.slot(&name);
+            let is_set = |slot: &pipelines::Slot| slot.settings.get(parameter) == Some(value);
+            if !slot.is_some_and(is_set) {
+                self.pipelines.set(parameter, value.clone());
+            }
+        }
+        self.pipeline_shown(before.as_deref());
     }
 
     /// Tells the scene's scripts what happens in the viewport.

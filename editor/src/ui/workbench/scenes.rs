@@ -7,7 +7,7 @@ use lightbench::assets::Task;
 use lightbench::assets::cache::Cache;
 use lightbench::assets::files::Files;
 use lightbench::render::{Place, Problem, Problems};
-use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_within};
+use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_again};
 
 use super::Wake;
 
@@ -249,9 +249,16 @@ impl Scenes {
         });
         let wake = Arc::clone(&self.wake);
         let (wanted, cache) = (name.clone(), self.cache.clone());
+        // What its scripts asked to keep, where it is the same scene.
+        let shown = self
+            .scene
+            .as_ref()
+            .filter(|_| self.shown.as_deref() == Some(&name));
+        let kept = shown.map(Scene::kept).unwrap_or_default();
         let task = Task::start(move |progress| {
             let limits = Limits::default();
-            let scene = load_scene_within(&files, &wanted, &settings, progress, &cache, &limits);
+            let (cache, limits) = (&cache, &limits);
+            let scene = load_scene_again(&files, &wanted, &settings, progress, cache, limits, kept);
             wake();
             scene
         });

@@ -4,6 +4,8 @@
 //! its pipeline reports that it lost something, and the limit is sought between the last value at
 //! which it lost nothing and the first at which it did: see [`losses`].
 
+mod chart;
+mod linear_scale;
 pub mod losses;
 mod plot;
 mod scale;
@@ -11,6 +13,7 @@ mod style;
 mod sweep;
 mod table;
 
+pub use chart::chart;
 pub use plot::plot;
 pub use sweep::{Sweep, SweepError, Swept, sweep};
 pub use table::table;

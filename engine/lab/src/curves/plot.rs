@@ -224,7 +224,7 @@ fn legend(w: &mut Writer, curves: &Curves) {
     }
 }
 
-fn mark(w: &mut Writer, [x, y]: [f64; 2], style: Style) {
+pub(super) fn mark(w: &mut Writer, [x, y]: [f64; 2], style: Style) {
     let place = format!("translate({x:.1} {y:.1})");
     let attributes = [
         ("d", style.shape),
@@ -236,7 +236,7 @@ fn mark(w: &mut Writer, [x, y]: [f64; 2], style: Style) {
     w.element("path", &attributes, |_| {});
 }
 
-fn line(w: &mut Writer, path: &str, colour: &str, width: f64) {
+pub(super) fn line(w: &mut Writer, path: &str, colour: &str, width: f64) {
     let width = number(width);
     let attributes = [
         ("d", path),
@@ -247,7 +247,7 @@ fn line(w: &mut Writer, path: &str, colour: &str, width: f64) {
     w.element("path", &attributes, |_| {});
 }
 
-fn text(w: &mut Writer, [x, y]: [f64; 2], size: u32, anchor: &str, text: &str) {
+pub(super) fn text(w: &mut Writer, [x, y]: [f64; 2], size: u32, anchor: &str, text: &str) {
     let (x, y, size) = (number(x), number(y), size.to_string());
     let attributes = [
         ("x", x.as_str()),
@@ -259,12 +259,12 @@ fn text(w: &mut Writer, [x, y]: [f64; 2], size: u32, anchor: &str, text: &str) {
 }
 
 /// A coordinate with one decimal at most.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     ((value * 10.0).round() / 10.0).to_string()
 }
 
 /// A tick without binary rounding.
-fn plain(value: f64) -> String {
+pub(super) fn plain(value: f64) -> String {
     ((value * 1e9).round() / 1e9).to_string()
 }
 

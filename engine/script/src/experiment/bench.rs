@@ -64,7 +64,7 @@ impl Bench {
         Arc::new(charged)
     }
 
-    /// Writes a file of the project.
+    /// Writes a file of the project's folder `out`.
     pub(super) fn write(&self, path: &str, bytes: &[u8]) -> Result<(), Mistake> {
         let written = self.0.files.write(path, bytes);
         written

@@ -15,9 +15,9 @@ use crate::api::{Api, Arguments, Mistake, ScriptType};
 use crate::math::text;
 
 /// Width and height in pixels, unless told.
-const SIZE: [i64; 2] = [640, 360];
+pub(super) const SIZE: [i64; 2] = [640, 360];
 /// The largest width and height that are asked of a device, which may refuse less.
-const MOST_PIXELS: i64 = 32_768;
+pub(super) const MOST_PIXELS: i64 = 32_768;
 /// The last frame: more than four hours.
 const LAST_FRAME: i64 = 1_000_000;
 

@@ -12,6 +12,7 @@ use super::frames::pixel;
 use super::options::Options;
 use crate::api::{Api, Arguments, Mistake, ScriptType, as_number};
 use crate::math::text;
+use crate::names::list;
 
 /// The folder of a project that experiments write to.
 const OUT: &str = "out/";
@@ -113,6 +114,24 @@ pub(super) fn register(api: &mut Api) {
         "The largest value of each channel. What is no number is passed over.",
         |image: Image, _| Ok(image.texel(|channel| image.values(channel).fold(f32::NAN, f32::max))),
     );
+    api.method(
+        "compare(reference)",
+        "How far the image is from a reference of the same size, as a map. Of targets with 8 bits a channel, \
+         as a display shows them: `mse`, `rmse`, `psnr` in decibels, `ssim`, and `flip`, the mean of the \
+         perceptual error from 0 to 1. Of others, in linear light: `mse`, `rmse`, `relative_mse`, `psnr`, \
+         `smape`, and `energy_ratio`, the image's light over the reference's. `lightbench diff --help` has \
+         the formulas.",
+        |image: Image, arguments| {
+            let reference: Image = arguments.object(0)?;
+            let found = image
+                .bench
+                .work(|laboratory| laboratory.compare(&reference.image, &image.image))?;
+            let entries = found.into_iter();
+            Ok(entries
+                .map(|(name, value)| (name.into(), Dynamic::from(value)))
+                .collect::<rhai::Map>())
+        },
+    );
     for form in ["save(path)", "save(path, options)"] {
         api.method(
             form,
@@ -126,7 +145,12 @@ pub(super) fn register(api: &mut Api) {
     }
 }
 
-fn save(image: &Image, arguments: &Arguments) -> Result<String, Mistake> {
+/// The first argument as a path below the folder `out`, with one of these endings.
+pub(super) fn out_path(
+    arguments: &Arguments,
+    what: &str,
+    endings: &[&str],
+) -> Result<String, Mistake> {
     let path = arguments.text(0)?;
     let below = path.strip_prefix(OUT).filter(|below| !below.is_empty());
     let Some(below) = below else {
@@ -136,13 +160,21 @@ fn save(image: &Image, arguments: &Arguments) -> Result<String, Mistake> {
         ))
         .with_hint(format!("write `{OUT}{name}`")));
     };
-    if ![".png", ".exr"]
-        .iter()
-        .any(|ending| below.ends_with(ending))
-    {
-        return Err(Mistake::new(format!("`{path}` is no picture"))
-            .with_hint("name a file that ends in `.png` or `.exr`"));
+    if !endings.iter().any(|ending| below.ends_with(ending)) {
+        let endings = endings.iter().map(|ending| format!("`{ending}`"));
+        let endings: Vec<String> = endings.collect();
+        return Err(
+            Mistake::new(format!("`{path}` is no {what}")).with_hint(format!(
+                "name a file that ends in {}",
+                list(endings.iter().map(String::as_str), "or")
+            )),
+        );
     }
+    Ok(path)
+}
+
+fn save(image: &Image, arguments: &Arguments) -> Result<String, Mistake> {
+    let path = out_path(arguments, "picture", &[".png", ".exr"])?;
     let options = Options::read(arguments, 1, "save", &["channel", "range", "false_colour"])?;
     let channel = match options.text_or_number("channel")?.as_deref() {
         None => None,

@@ -27,6 +27,79 @@ pub struct Shot {
     pub frame: u32,
 }
 
+/// A measurement: a scene that several pipelines draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// A scene's name or path.
+    pub scene: String,
+    /// Values of its parameters.
+    pub scene_settings: Settings,
+    /// Names or paths of pipelines, with values of their parameters.
+    pub pipelines: Vec<(String, Settings)>,
+    /// Width and height in pixels, both at least 1.
+    pub size: (u32, u32),
+    /// Frames that each pipeline draws first, unmeasured.
+    pub warmup: u32,
+    /// Frames that are measured of each pipeline.
+    pub frames: u32,
+}
+
+/// A time in milliseconds: the median of frames and the interval that holds it with 95 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeSpan {
+    /// The median.
+    pub median: f64,
+    /// Where the interval begins; the shortest time where there are too few frames for one.
+    pub low: f64,
+    /// Where it ends; the longest time where there are too few frames for one.
+    pub high: f64,
+}
+
+/// What a frame of one pipeline cost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cost {
+    /// GPU time; absent where the adapter has no timestamps.
+    pub gpu: Option<TimeSpan>,
+    /// CPU time for extraction and recording.
+    pub cpu: TimeSpan,
+    /// Draw calls.
+    pub draws: u64,
+    /// Triangles drawn.
+    pub triangles: u64,
+    /// Bytes read and written, by the model of `bytes`.
+    pub bytes: u64,
+    /// Bytes of memory of all targets and buffers.
+    pub memory: u64,
+    /// What its shaders counted in the last frame.
+    pub counters: Vec<(String, f64)>,
+}
+
+/// Curves over one parameter, to be drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chart {
+    /// What it shows.
+    pub title: String,
+    /// What goes to the right.
+    pub x: String,
+    /// What goes up.
+    pub y: String,
+    /// Whether each factor of ten has the same length, to the right and up.
+    pub logarithmic: [bool; 2],
+    /// The curves, each with points in the order in which they are joined.
+    pub curves: Vec<ChartCurve>,
+}
+
+/// One curve of a [`Chart`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ChartCurve {
+    /// Its name.
+    pub name: String,
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+    /// For each point where its value may lie too, from and to; empty where that is not known.
+    pub intervals: Vec<[f64; 2]>,
+}
+
 /// Draws frames and looks into them.
 ///
 /// A shot says all that a frame depends on, so the same one always gives the same values, whatever
@@ -62,6 +135,26 @@ pub trait Laboratory: Send {
     /// # Errors
     /// As [`Laboratory::draw`].
     fn first_invalid(&mut self, shot: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError>;
+
+    /// What frames of a scene cost in some pipelines, which are drawn in turn, so that what slows the
+    /// machine slows all of them alike. One result a pipeline, in their order.
+    ///
+    /// # Errors
+    /// As [`Laboratory::draw`].
+    fn measure(&mut self, task: &Task) -> Result<Vec<Cost>, LaboratoryError>;
+
+    /// How far an image is from a reference, each number with the name of its metric.
+    ///
+    /// # Errors
+    /// Images of different sizes, or of formats that hold no picture.
+    fn compare(
+        &self,
+        reference: &TargetImage,
+        image: &TargetImage,
+    ) -> Result<Vec<(&'static str, f64)>, LaboratoryError>;
+
+    /// The bytes of a plot of curves, as SVG.
+    fn plot(&self, chart: &Chart) -> Vec<u8>;
 
     /// The bytes of a picture file: of an EXR where the path ends so, else of a PNG.
     ///

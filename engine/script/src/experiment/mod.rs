@@ -4,7 +4,9 @@ mod bench;
 mod frames;
 mod images;
 mod laboratory;
+mod measuring;
 mod options;
+mod plots;
 mod saying;
 #[cfg(test)]
 mod tests;
@@ -25,7 +27,7 @@ use crate::parameters;
 use crate::settings::Settings;
 use bench::Bench;
 
-pub use laboratory::{Laboratory, LaboratoryError, Shot};
+pub use laboratory::{Chart, ChartCurve, Cost, Laboratory, LaboratoryError, Shot, Task, TimeSpan};
 
 /// The folder of the experiments.
 pub const EXPERIMENTS: &str = "scripts/experiments";
@@ -98,6 +100,8 @@ fn host(
                 let bench = Bench::new(laboratory, watch, files, settings);
                 frames::register(api, &bench, path);
                 images::register(api);
+                measuring::register(api, &bench, path);
+                plots::register(api, &bench);
                 saying::register(api);
                 api.section("Parameters");
                 let declaring = bench.clone();
@@ -142,6 +146,22 @@ impl Laboratory for Nobody {
 
     fn first_invalid(&mut self, _: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError> {
         Self::refuse()
+    }
+
+    fn measure(&mut self, _: &Task) -> Result<Vec<Cost>, LaboratoryError> {
+        Self::refuse()
+    }
+
+    fn compare(
+        &self,
+        _: &TargetImage,
+        _: &TargetImage,
+    ) -> Result<Vec<(&'static str, f64)>, LaboratoryError> {
+        Self::refuse()
+    }
+
+    fn plot(&self, _: &Chart) -> Vec<u8> {
+        Vec::new()
     }
 
     fn encode(&self, _: &str, _: &TargetImage, _: Shown) -> Result<Vec<u8>, LaboratoryError> {

@@ -46,6 +46,29 @@ impl<'a, 'b, 'c, 'v, 'd> Options<'a, 'b, 'c, 'v, 'd> {
         })
     }
 
+    /// Options that are part of an argument.
+    pub(super) fn of(
+        arguments: &'a Arguments<'b, 'c, 'v, 'd>,
+        call: &'static str,
+        map: Map,
+    ) -> Self {
+        Self {
+            arguments,
+            call,
+            map,
+        }
+    }
+
+    /// A text.
+    pub(super) fn text(&self, name: &str) -> Result<Option<String>, Mistake> {
+        let Some(value) = self.value(name) else {
+            return Ok(None);
+        };
+        let text = value.clone().into_string();
+        text.map(Some)
+            .map_err(|_| self.wrong(name, "a text in quotes"))
+    }
+
     /// The value of an option, if it is given.
     pub(super) fn value(&self, name: &str) -> Option<&Dynamic> {
         self.map.get(name).filter(|value| !value.is_unit())

@@ -14,6 +14,8 @@ use super::input::Input;
 use super::materials::Material;
 use super::models::Models;
 use super::recipes::Recipes;
+use super::state::{KeptBehaviour, State};
+use super::wishes::PipelineWish;
 use crate::api::{Mistake, ScriptType};
 use crate::limits::{Limits, Watch};
 use crate::log::Log;
@@ -43,6 +45,12 @@ pub(super) struct Data {
     pub(super) models: Models,
     /// What happens outside.
     pub(super) input: Input,
+    /// The pipeline that a script has asked for since somebody looked.
+    pub(super) wish: Option<PipelineWish>,
+    /// What the scene's own script remembers.
+    pub(super) state: State,
+    /// What behaviours kept before, for those that begin now.
+    pub(super) kept: Vec<KeptBehaviour>,
     /// Messages that behaviours will be told.
     pub(super) messages: Vec<Message>,
     /// Whose function is being called.
@@ -88,6 +96,9 @@ impl Stage {
             recipes: Recipes::default(),
             models: Models::default(),
             input: Input::default(),
+            wish: None,
+            state: State::default(),
+            kept: Vec::new(),
             messages: Vec::new(),
             at_work: AtWork::default(),
             starting: None,
@@ -139,6 +150,19 @@ impl Data {
             self.made.extend(others);
         }
         self.made.clone()
+    }
+
+    /// The state of a behaviour that begins: empty, or with what it kept before.
+    pub(super) fn take_kept(&mut self, entity: Entity, script: &str) -> State {
+        let name = self.world.get::<Name>(entity);
+        let is_its = |kept: &KeptBehaviour| {
+            let named = name.as_ref().is_some_and(|name| name.text == kept.entity);
+            named && kept.script == script
+        };
+        match self.kept.iter().position(is_its) {
+            Some(at) => State::with(self.kept.remove(at).entries),
+            None => State::default(),
+        }
     }
 
     fn forget_removed(&mut self) {

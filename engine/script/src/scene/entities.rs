@@ -2,7 +2,7 @@
 
 use lightbench_assets::{MaterialId, MeshId};
 use lightbench_render::problem::suggestion;
-use lightbench_world::glam::{DQuat, DVec3, Quat, Vec3};
+use lightbench_world::glam::{DQuat, DVec3, Mat4, Quat, Vec3};
 use lightbench_world::{Entity, MeshRenderer, Name, Transform};
 use rhai::{Array, Dynamic};
 
@@ -352,6 +352,18 @@ fn reading(api: &mut Api, stage: &Stage) {
             data.check(entity)?;
             let matrix = super::bounds::world_matrix(&data.world, entity);
             Ok(Vec3::from(matrix.translation).as_dvec3())
+        },
+    );
+    getter(
+        api,
+        stage,
+        "world_matrix",
+        "The matrix from its own space to that of the world: its place, rotation and scale, and those of \
+         all that it stands below.",
+        |data, entity| {
+            data.check(entity)?;
+            let matrix = super::bounds::world_matrix(&data.world, entity);
+            Ok(Mat4::from(matrix).as_dmat4())
         },
     );
     getter(

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use rhai::{Array, Dynamic};
 
-use super::data::Stage;
-use super::picking::Ray;
+use super::data::{Data, Stage};
+use super::handlers::Event;
+use super::picking::{Ray, pick};
 use crate::api::Api;
 
 /// Something that happens outside of a scene, for [`Scene::happen`](super::Scene::happen).
@@ -24,11 +25,21 @@ pub enum SceneEvent {
     Leave,
 }
 
-/// What behaviours are told of.
+/// What scripts are told of.
 #[derive(Clone, Debug)]
 pub(super) enum Happened {
     Key(String),
     Click(Ray),
+}
+
+impl Happened {
+    /// As scripts are told of it; nothing where a click hit nothing.
+    pub(super) fn in_scene(self, data: &Data) -> Option<Event> {
+        match self {
+            Self::Key(key) => Some(Event::Key(key)),
+            Self::Click(ray) => pick(data, ray).map(|hit| Event::Click(hit.entity, hit.point)),
+        }
+    }
 }
 
 /// The keys that are down, the pointer, and what nobody was told yet.

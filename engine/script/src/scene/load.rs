@@ -4,14 +4,17 @@ use lightbench_assets::Progress;
 use lightbench_assets::cache::{Cache, Reuse};
 use lightbench_assets::files::Files;
 use lightbench_render::{Place, Problem, Problems};
-use rhai::{AST, Dynamic, Module, Scope};
+use rhai::{Dynamic, Module, Scope};
 
 use super::behaviours::AtWork;
 use super::data::Stage;
 use super::saved::Textures;
+use super::script::OwnScript;
+use super::state::{KeptState, State};
 use super::{
-    Read, SCENES, Scene, behaviours, bounds, cameras, columns, entities, fields, input, lights,
-    materials, models, motion, picking, saved, selection, shapes, state, tags, textures,
+    Read, SCENES, Scene, behaviours, bounds, cameras, columns, curves, entities, fields, input,
+    lights, materials, models, motion, picking, saved, selection, shapes, state, tags, textures,
+    wishes,
 };
 use crate::host::{Extras, Host, find};
 use crate::limits::Limits;
@@ -54,6 +57,31 @@ pub fn load_scene_within(
     cache: &Cache,
     limits: &Limits,
 ) -> Result<Scene, Problems> {
+    let nothing = KeptState::default();
+    load_scene_again(
+        files,
+        name_or_path,
+        settings,
+        progress,
+        cache,
+        limits,
+        nothing,
+    )
+}
+
+/// [`load_scene_within`] with what the scripts of an earlier load asked to keep: [`Scene::kept`].
+///
+/// # Errors
+/// As [`load_scene`].
+pub fn load_scene_again(
+    files: &Files,
+    name_or_path: &str,
+    settings: &Settings,
+    progress: &Progress,
+    cache: &Cache,
+    limits: &Limits,
+    kept: KeptState,
+) -> Result<Scene, Problems> {
     let read = Read::default();
     let files = &read.watch(files);
     let reuse = cache.begin();
@@ -64,17 +92,17 @@ pub fn load_scene_within(
         return Err(stopped.into());
     }
     if path.ends_with(&format!(".{}", saved::EXTENSION)) {
-        let mut scene = saved::load(files, &reuse, &path, settings, progress, limits)?;
+        let mut scene = saved::load(files, &reuse, &path, settings, progress, limits, kept)?;
         scene.read = read;
         return Ok(scene);
     }
-    let (host, stage, _) = host(files, &reuse, settings, limits, progress);
+    let (host, stage, _) = host(files, &reuse, settings, limits, progress, kept);
     let ast = host.load(&path)?;
-    let update = update_call(&host, &path)?;
+    let script = OwnScript::find(&host, &path, SCRIPT_MODULE)?;
     host.watch.start(limits.load_time);
     let module = Module::eval_ast_as_new(Scope::new(), &ast, &host.engine)
         .map_err(|error| host.compiler.explain(&error, &path))?;
-    let mut scene = Scene::new(path, host, stage, update);
+    let mut scene = Scene::new(path, host, stage, script);
     scene.read = read;
     scene
         .host
@@ -99,6 +127,7 @@ pub fn scene_names() -> Names {
         &Settings::new(),
         &Limits::default(),
         &Progress::new(),
+        KeptState::default(),
     );
     host.compiler.names.clone()
 }
@@ -109,8 +138,11 @@ pub(super) fn host(
     settings: &Settings,
     limits: &Limits,
     progress: &Progress,
+    kept: KeptState,
 ) -> (Host, Stage, Textures) {
     let mut stage = None;
+    let state = State::with(kept.scene);
+    let mut kept = kept.behaviours;
     let at_work = AtWork::default();
     let defined = Textures::default();
     let host = Host::new(
@@ -120,7 +152,12 @@ pub(super) fn host(
             register: &mut |api, watch, log| {
                 watch.stop_with(progress);
                 let made = Stage::new(files, reuse, settings, limits, watch, log, progress);
-                made.lock().at_work = at_work.clone();
+                {
+                    let data = &mut *made.lock();
+                    data.at_work = at_work.clone();
+                    data.kept = std::mem::take(&mut kept);
+                    data.state = state.clone();
+                }
                 api.section("Parameters");
                 let stage_of_parameters = made.clone();
                 parameters::register(api, move |arguments| {
@@ -135,6 +172,8 @@ pub(super) fn host(
                 entities::register(api, &made);
                 api.section("Motion");
                 motion::register(api, &made);
+                api.section("Curves");
+                curves::register(api);
                 api.section("Extent");
                 bounds::register(api, &made);
                 api.section("Shapes and meshes");
@@ -156,13 +195,15 @@ pub(super) fn host(
                 picking::register(api, &made);
                 api.section("State");
                 state::register(api);
+                api.section("The pipeline");
+                wishes::register(api, &made);
                 fields::register(api, &made);
                 tags::register(api, &made);
                 selection::register(api, &made);
                 columns::register(api, &made);
                 stage = Some(made);
             },
-            globals: vec![("state", Dynamic::from(state::State::default()))],
+            globals: vec![("state", Dynamic::from(state.clone()))],
             variables: at_work.variables(),
             reuse: reuse.clone(),
         },
@@ -172,33 +213,4 @@ pub(super) fn host(
         Stage::new(files, reuse, settings, limits, watch, log, progress)
     });
     (host, stage, defined)
-}
-
-/// What calls the script's `update`, with as many arguments as it takes.
-fn update_call(host: &Host, path: &str) -> Result<Option<AST>, Problem> {
-    let Some(source) = host.compiler.sources.get(path) else {
-        return Ok(None);
-    };
-    let Some(function) = source.functions.iter().find(|f| f.name == "update") else {
-        return Ok(None);
-    };
-    let arguments = match function.arguments.len() {
-        0 => "",
-        1 => "time",
-        2 => "time, dt",
-        count => {
-            let at = Place::new(path, function.line, function.column);
-            let problem = Problem::new(at, format!("`update` takes {count} arguments"))
-                .with_hint("it is written `fn update(time, dt) { … }`")
-                .with_source(&source.text);
-            return Err(problem);
-        }
-    };
-    let mut scope = Scope::new();
-    scope.push("time", 0.0_f64).push("dt", 0.0_f64);
-    let call = format!("{SCRIPT_MODULE}::update({arguments})");
-    // Without strictness: the module is registered after the script has run.
-    host.compile_loosely(&scope, &call)
-        .map(Some)
-        .map_err(|error| Problem::new(Place::file(path), error))
 }

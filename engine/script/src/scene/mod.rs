@@ -4,10 +4,12 @@ mod behaviours;
 mod bounds;
 mod cameras;
 mod columns;
+mod curves;
 mod data;
 mod entities;
 mod faces;
 mod fields;
+mod handlers;
 mod input;
 mod lights;
 mod list;
@@ -19,6 +21,7 @@ mod picking;
 mod recipes;
 mod reflection;
 mod saved;
+mod script;
 mod selection;
 mod shapes;
 mod state;
@@ -26,6 +29,7 @@ mod tables;
 mod tags;
 mod textures;
 mod values;
+mod wishes;
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -35,22 +39,25 @@ use lightbench_assets::{Assets, Progress};
 use lightbench_render::{Place, Problem, Problems};
 use lightbench_world::systems::{FrameSystems, update_computed};
 use lightbench_world::{Behaviour, Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
-use rhai::{AST, Dynamic, EvalAltResult, Scope};
 
 use crate::host::Host;
 use crate::log::LogLine;
 use crate::names::Names;
 use crate::parameters::{SceneParameter, undeclared};
 use crate::settings::SettingValue;
-use behaviours::Behaviours;
+use behaviours::{Behaviours, Message};
 use data::Stage;
+use handlers::Event;
+use script::OwnScript;
 
 pub use behaviours::{BEHAVIOURS, BehaviourInfo};
 pub use input::SceneEvent;
 pub use list::{SceneEntry, list_scenes};
-pub use load::{load_scene, load_scene_within, scene_names};
+pub use load::{load_scene, load_scene_again, load_scene_within, scene_names};
 pub use picking::Ray;
 pub use saved::EXTENSION as SCENE_EXTENSION;
+pub use state::KeptState;
+pub use wishes::PipelineWish;
 
 /// The folder of the scene files.
 pub const SCENES: &str = "scripts/scenes";
@@ -68,11 +75,9 @@ pub struct Scene {
     host: Host,
     stage: Stage,
     read: Read,
-    /// Calls `update`, where the script has it.
-    update: Option<AST>,
+    /// The functions of the scene's own script.
+    script: OwnScript,
     behaviours: Behaviours,
-    /// Whether an update failed; the script is not called again.
-    stopped: bool,
     /// What moves and computes beside the script.
     systems: FrameSystems,
     /// What the script took in the last step.
@@ -90,7 +95,7 @@ impl std::fmt::Debug for Scene {
 }
 
 impl Scene {
-    fn new(path: String, host: Host, stage: Stage, update: Option<AST>) -> Self {
+    fn new(path: String, host: Host, stage: Stage, script: OwnScript) -> Self {
         let at_work = stage.lock().at_work.clone();
         Self {
             world: World::new(),
@@ -100,9 +105,8 @@ impl Scene {
             host,
             stage,
             read: Read::default(),
-            update,
+            script,
             behaviours: Behaviours::new(at_work),
-            stopped: false,
             systems: FrameSystems::default(),
             script_time: None,
         }
@@ -128,14 +132,15 @@ impl Scene {
         drop(data);
         // Listed from the start, and not called yet.
         self.script_time = self
-            .update
-            .is_some()
+            .script
+            .runs()
             .then(|| SystemTime::of("script", || ()).0);
         Ok(())
     }
 
-    /// Brings the scene to the next moment: calls the script's `update(time, dt)`, where it has
-    /// one, and runs all systems of the world. `dt` is the step that ends at `time`, in seconds;
+    /// Brings the scene to the next moment: tells the scripts what happened, calls the scene's
+    /// `update(time, dt)` and those of its behaviours, where they have one, delivers messages, and runs
+    /// all systems of the world. `dt` is the step that ends at `time`, in seconds;
     /// the same steps give the same scene, however long they take.
     ///
     /// # Errors
@@ -144,18 +149,43 @@ impl Scene {
     /// tell of the others.
     pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
         let (took, result) = SystemTime::of("script", || {
-            let result = self.call_update(time, dt);
             self.swap();
-            let (host, stage) = (&mut self.host, &self.stage);
-            self.behaviours.step(host, stage, time, dt);
+            let result = self.run_scripts(time, dt);
             self.swap();
             result
         });
-        let scripted = self.update.is_some() || !self.behaviours.is_empty();
+        let scripted = self.script.runs() || !self.behaviours.is_empty();
         self.script_time = scripted.then_some(took);
         self.run_systems(time, dt);
         result?;
         self.behaviours.take_problem().map_or(Ok(()), Err)
+    }
+
+    /// Tells the scene's script and the behaviours what happened, updates them, and delivers messages.
+    fn run_scripts(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
+        let happened: Vec<Event> = {
+            let mut data = self.stage.lock();
+            let happened = data.input.take().into_iter();
+            happened.filter_map(|event| event.in_scene(&data)).collect()
+        };
+        let (host, stage, path) = (&mut self.host, &self.stage, &self.path);
+        let mut result = Ok(());
+        for event in &happened {
+            result = result.and(self.script.call(host, path, event));
+        }
+        result = result.and(self.script.call(host, path, &Event::Update { time, dt }));
+        self.behaviours.step(host, stage, &happened, time, dt);
+        // What is sent while messages are delivered goes with the next step, so that two scripts that
+        // answer each other do not hold it up.
+        let messages = std::mem::take(&mut stage.lock().messages);
+        for Message { to, name, value } in messages {
+            let event = Event::Message(name, value);
+            if to.is_none() {
+                result = result.and(self.script.call(host, path, &event));
+            }
+            self.behaviours.deliver(host, stage, to, &event);
+        }
+        result
     }
 
     /// Starts the behaviours of a scene that was made.
@@ -174,10 +204,24 @@ impl Scene {
         self.stage.lock().input.happen(event);
     }
 
+    /// The pipeline that its scripts have asked for since the last call.
+    pub fn take_wish(&mut self) -> Option<PipelineWish> {
+        self.stage.lock().wish.take()
+    }
+
     /// The behaviours of its entities, in the order in which they began.
     #[must_use]
     pub fn behaviours(&self) -> Vec<BehaviourInfo> {
         self.behaviours.list()
+    }
+
+    /// What its scripts keep for when it is loaded again, for [`load_scene_again`].
+    #[must_use]
+    pub fn kept(&self) -> KeptState {
+        KeptState {
+            scene: self.stage.lock().state.kept(),
+            behaviours: self.behaviours.kept(&self.world),
+        }
     }
 
     /// Sets a parameter of an entity's behaviour, which begins anew with the next step.
@@ -214,48 +258,6 @@ impl Scene {
         self.script_time.iter().cloned().chain(self.systems.times())
     }
 
-    fn call_update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
-        let Some(call) = self.update.clone().filter(|_| !self.stopped) else {
-            return Ok(());
-        };
-        self.swap();
-        let mut scope = Scope::new();
-        scope.push("time", time).push("dt", dt);
-        let limit = self.host.compiler.limits.update_time;
-        self.host.watch.start(limit);
-        let result = self
-            .host
-            .engine
-            .eval_ast_with_scope::<Dynamic>(&mut scope, &call);
-        self.swap();
-        match result {
-            Ok(_) => Ok(()),
-            Err(error) => {
-                self.stopped = true;
-                Err(self.explain_update(&error))
-            }
-        }
-    }
-
-    fn explain_update(&self, error: &EvalAltResult) -> Problem {
-        let compiler = &self.host.compiler;
-        let problem = compiler.explain(error, &self.path);
-        // A limit that is hit inside knows only the place of the outermost call, which is ours.
-        let inside = matches!(error, EvalAltResult::ErrorInFunctionCall(..));
-        let source = compiler.sources.get(&self.path).unwrap_or_default();
-        match source.functions.iter().find(|f| f.name == "update") {
-            Some(function) if !inside => {
-                let at = Place::new(self.path.as_str(), function.line, function.column);
-                Problem {
-                    place: at,
-                    ..problem
-                }
-                .with_source(&source.text)
-            }
-            _ => problem,
-        }
-    }
-
     /// Lends the world to the script's functions, and takes it back.
     fn swap(&mut self) {
         let mut data = self.stage.lock();
@@ -266,7 +268,7 @@ impl Scene {
     /// Whether the script moves the scene.
     #[must_use]
     pub fn has_update(&self) -> bool {
-        self.update.is_some() && !self.stopped
+        self.script.runs()
     }
 
     /// Whether anything changes as time passes: by the script, or by a component.
@@ -337,5 +339,7 @@ const _: fn() = || {
 mod reach_tests;
 #[cfg(test)]
 mod saved_tests;
+#[cfg(test)]
+mod script_tests;
 #[cfg(test)]
 mod tests;

@@ -173,7 +173,7 @@ fn change<C: Stored>(
 }
 
 /// A curve from an array of keys and, behind it, the mode.
-fn curve<T: Interpolate>(
+pub(super) fn curve<T: Interpolate>(
     a: &Arguments,
     value: impl Fn(&Arguments, &Dynamic) -> Result<T, Mistake>,
 ) -> Result<Curve<T>, Mistake> {
@@ -220,7 +220,7 @@ fn vector(key: &Dynamic) -> Result<DVec3, Mistake> {
         })
 }
 
-fn point(_: &Arguments, key: &Dynamic) -> Result<Vec3, Mistake> {
+pub(super) fn point(_: &Arguments, key: &Dynamic) -> Result<Vec3, Mistake> {
     vector(key).map(|vector| vector.as_vec3())
 }
 

@@ -29,7 +29,9 @@ use super::data::Stage;
 use super::load::host;
 use super::materials::Material;
 use super::recipes::{self, MeshRecipe, Recipes};
+use super::script::OwnScript;
 use super::shapes::{MeshHandle, Shape};
+use super::state::KeptState;
 use super::textures::Pattern;
 use crate::api::{Api, Mistake};
 use crate::host::Host;
@@ -67,10 +69,11 @@ pub(super) fn load(
     settings: &Settings,
     progress: &Progress,
     limits: &Limits,
+    kept: KeptState,
 ) -> Result<Scene, Problems> {
     let text = files.read_text(path);
     let text = text.map_err(|error| Problem::new(Place::file(path), error.to_string()))?;
-    let (host, stage, textures) = host(files, reuse, settings, limits, progress);
+    let (host, stage, textures) = host(files, reuse, settings, limits, progress, kept);
     host.watch.start(limits.load_time);
     let mut maker = Maker {
         host: &host,
@@ -95,7 +98,7 @@ pub(super) fn load(
         return Err(Problem::new(Place::file(path), message).into());
     }
     stage.lock().world = world;
-    let mut scene = Scene::new(path.to_owned(), host, stage, None);
+    let mut scene = Scene::new(path.to_owned(), host, stage, OwnScript::default());
     scene.finish()?;
     // The world stays as the file has it, bit for bit, until time passes.
     scene.refresh();

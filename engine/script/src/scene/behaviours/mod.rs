@@ -6,26 +6,23 @@
 //! `on_message` when something happens. All of them see the entity as `me`.
 
 mod functions;
-mod handlers;
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lightbench_render::Problem;
 use lightbench_render::problem::Problems;
-use lightbench_world::{Behaviour, Entity, Parameters, Value};
+use lightbench_world::{Behaviour, Entity, Name, Parameters, Value, World};
 use rhai::{Dynamic, Module, Scope};
 
 use super::data::{Data, Stage};
-use super::input::Happened;
-use super::picking::pick;
-use super::state::State;
+use super::handlers::{Event, Handlers, OF_BEHAVIOUR};
+use super::state::{KeptBehaviour, State};
 use crate::api::Mistake;
 use crate::host::{Host, Variables};
 use crate::parameters::{SceneParameter, undeclared};
 use crate::settings::{SettingValue, Settings};
 pub(super) use functions::register;
-use handlers::{Event, Handlers};
 
 /// The folder of the behaviours.
 pub const BEHAVIOURS: &str = "scripts/behaviours";
@@ -152,31 +149,50 @@ impl Behaviours {
     }
 
     /// One step: starts what is new, ends what is gone, tells what happened, and updates all.
-    pub(super) fn step(&mut self, host: &mut Host, stage: &Stage, time: f64, dt: f64) {
+    pub(super) fn step(
+        &mut self,
+        host: &mut Host,
+        stage: &Stage,
+        happened: &[Event],
+        time: f64,
+        dt: f64,
+    ) {
         self.start_and_end(host, stage);
-        let events = stage.lock().input.take();
-        for event in events {
+        for event in happened {
             match event {
-                Happened::Key(key) => self.tell_all(host, stage, &Event::Key(key)),
-                Happened::Click(ray) => {
-                    let hit = pick(&stage.lock(), ray);
-                    if let Some(hit) = hit {
-                        self.tell(host, stage, hit.entity, &Event::Click(hit.point));
-                    }
-                }
+                Event::Click(entity, _) => self.tell(host, stage, *entity, event),
+                _ => self.tell_all(host, stage, event),
             }
         }
         self.tell_all(host, stage, &Event::Update { time, dt });
-        // What is sent while messages are delivered goes with the next step, so that two behaviours
-        // that answer each other do not hold it up.
-        let messages = std::mem::take(&mut stage.lock().messages);
-        for message in messages {
-            let event = Event::Message(message.name, message.value);
-            match message.to {
-                Some(entity) => self.tell(host, stage, entity, &event),
-                None => self.tell_all(host, stage, &event),
-            }
+    }
+
+    /// Delivers messages to the behaviours that they are for.
+    pub(super) fn deliver(
+        &mut self,
+        host: &Host,
+        stage: &Stage,
+        to: Option<Entity>,
+        event: &Event,
+    ) {
+        match to {
+            Some(entity) => self.tell(host, stage, entity, event),
+            None => self.tell_all(host, stage, event),
         }
+    }
+
+    /// What the behaviours keep for when they are loaded again, by the names of their entities.
+    pub(super) fn kept(&self, world: &World) -> Vec<KeptBehaviour> {
+        let kept = self.instances.iter().filter_map(|instance| {
+            let entries = instance.state.kept();
+            let name = world.get::<Name>(instance.entity)?;
+            (!entries.is_empty()).then(|| KeptBehaviour {
+                entity: name.text,
+                script: instance.component.script.clone(),
+                entries,
+            })
+        });
+        kept.collect()
     }
 
     /// Starts the behaviours of entities that have got one, and ends those of entities that lost it,
@@ -231,11 +247,12 @@ impl Behaviours {
                 self.slots += 1;
                 self.slots - 1
             });
+            let state = stage.lock().take_kept(entity, &component.script);
             let mut instance = Instance {
                 entity,
                 component,
                 parameters: Vec::new(),
-                state: State::default(),
+                state,
                 handlers: Handlers::default(),
                 slot,
                 stopped: false,
@@ -262,8 +279,8 @@ impl Behaviours {
         let path = &instance.component.script;
         let settings = settings(&instance.component.parameters);
         let ast = host.load(path)?;
-        let module = handlers::module(instance.slot);
-        instance.handlers = Handlers::find(host, path, &module)?;
+        let module = format!("behaviour_{}", instance.slot);
+        instance.handlers = Handlers::find(host, path, &module, &OF_BEHAVIOUR)?;
         stage.lock().starting = Some(Starting {
             settings: settings.clone(),
             parameters: Vec::new(),

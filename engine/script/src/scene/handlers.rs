@@ -1,12 +1,13 @@
-//! The functions of a behaviour that are called when something happens.
+//! The functions of a script that are called when something happens.
 
 use lightbench_render::{Place, Problem};
+use lightbench_world::Entity;
 use lightbench_world::glam::DVec3;
 use rhai::{AST, Dynamic, Scope};
 
 use crate::host::Host;
 
-/// Something that a behaviour is told of.
+/// Something that a script is told of.
 pub(super) enum Event {
     /// The entity has got the behaviour.
     Init,
@@ -14,18 +15,30 @@ pub(super) enum Event {
     Update { time: f64, dt: f64 },
     /// A key went down.
     Key(String),
-    /// The entity was clicked at a point in the world.
-    Click(DVec3),
+    /// An entity was clicked at a point in the world.
+    Click(Entity, DVec3),
     /// Another behaviour, or the scene, sent something.
     Message(String, Dynamic),
 }
 
-/// The functions: how each is named, and what it may take.
-const HANDLERS: [(&str, &[&str]); 5] = [
+/// How functions are named, and what each may take, in the order of [`Event`].
+pub(super) type Forms = [(&'static str, &'static [&'static str]); 5];
+
+/// The functions of a behaviour.
+pub(super) const OF_BEHAVIOUR: Forms = [
     ("init", &[]),
     ("update", &["time", "dt"]),
     ("on_key", &["key"]),
     ("on_click", &["point"]),
+    ("on_message", &["name", "value"]),
+];
+
+/// The functions of a scene's own script. What `init` would do stands outside of its functions.
+pub(super) const OF_SCENE: Forms = [
+    ("", &[]),
+    ("update", &["time", "dt"]),
+    ("on_key", &["key"]),
+    ("on_click", &["entity", "point"]),
     ("on_message", &["name", "value"]),
 ];
 
@@ -35,9 +48,14 @@ impl Event {
             Self::Init => 0,
             Self::Update { .. } => 1,
             Self::Key(_) => 2,
-            Self::Click(_) => 3,
+            Self::Click(..) => 3,
             Self::Message(..) => 4,
         }
+    }
+
+    /// The function that is called for it.
+    pub(super) fn name(&self, forms: &Forms) -> &'static str {
+        forms[self.index()].0
     }
 
     /// The arguments, under the names with which they are called.
@@ -51,8 +69,8 @@ impl Event {
             Self::Key(key) => {
                 scope.push("key", key.clone());
             }
-            Self::Click(point) => {
-                scope.push("point", *point);
+            Self::Click(entity, point) => {
+                scope.push("entity", *entity).push("point", *point);
             }
             Self::Message(name, value) => {
                 scope.push("name", name.clone());
@@ -63,22 +81,22 @@ impl Event {
     }
 }
 
-/// What calls the functions that a behaviour has.
+/// What calls the functions that a script has.
 #[derive(Default)]
-pub(super) struct Handlers([Option<AST>; HANDLERS.len()]);
-
-/// The name of the module of a slot.
-pub(super) fn module(slot: usize) -> String {
-    format!("behaviour_{slot}")
-}
+pub(super) struct Handlers([Option<AST>; 5]);
 
 impl Handlers {
     /// Looks for the functions in a file that was read.
-    pub(super) fn find(host: &Host, path: &str, module: &str) -> Result<Self, Problem> {
+    pub(super) fn find(
+        host: &Host,
+        path: &str,
+        module: &str,
+        forms: &Forms,
+    ) -> Result<Self, Problem> {
         let source = host.compiler.sources.get(path).unwrap_or_default();
         let mut found = Self::default();
-        for (slot, (name, takes)) in found.0.iter_mut().zip(HANDLERS) {
-            let Some(function) = source.functions.iter().find(|f| f.name == name) else {
+        for (slot, (name, takes)) in found.0.iter_mut().zip(forms) {
+            let Some(function) = source.functions.iter().find(|f| f.name == *name) else {
                 continue;
             };
             let count = function.arguments.len();
@@ -91,7 +109,7 @@ impl Handlers {
                     .with_source(&source.text));
             }
             let mut scope = Scope::new();
-            for argument in takes {
+            for argument in *takes {
                 scope.push(*argument, ());
             }
             let call = format!("{module}::{name}({})", takes[..count].join(", "));
@@ -102,6 +120,11 @@ impl Handlers {
             *slot = Some(call);
         }
         Ok(found)
+    }
+
+    /// Whether there is none at all.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.iter().all(Option::is_none)
     }
 
     pub(super) fn of(&self, event: &Event) -> Option<&AST> {
