@@ -10,6 +10,7 @@ pub mod compare;
 pub mod flat;
 pub mod grid;
 pub mod lists;
+pub mod mutation;
 pub mod panes;
 pub mod pixels;
 pub mod workshop;
@@ -266,5 +267,10 @@ impl Numbers {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) % end as u64) as usize
+    }
+
+    /// One of some things.
+    pub fn pick<'a, T>(&mut self, things: &'a [T]) -> &'a T {
+        &things[self.below(things.len())]
     }
 }

@@ -27,7 +27,9 @@ mod settings;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use anyhow::Context as _;
 use clap::{Parser, Subcommand};
+use lightbench::script::GivenLimits;
 
 /// A workbench for real-time lighting pipelines.
 ///
@@ -55,6 +57,9 @@ struct Arguments {
     /// The project's folder; without it, the project that the current folder belongs to
     #[arg(long, value_name = "DIR", global = true)]
     project: Option<PathBuf>,
+    /// A TOML file whose table `limits` bounds what scripts may use, over the project's own
+    #[arg(long, value_name = "FILE", global = true)]
+    limits: Option<PathBuf>,
     #[command(subcommand)]
     command: Command,
 }
@@ -120,6 +125,13 @@ fn hush_device_selection() {
 }
 
 fn run(arguments: Arguments) -> anyhow::Result<()> {
+    if let Some(path) = &arguments.limits {
+        let text = std::fs::read_to_string(path)
+            .with_context(|| format!("--limits {} can't be read", path.display()))?;
+        let given = GivenLimits::read(&path.display().to_string(), &text)
+            .map_err(|problem| anyhow::anyhow!("{problem}"))?;
+        given.impose();
+    }
     let project = arguments.project.as_deref();
     let files = || project::open(project);
     match arguments.command {

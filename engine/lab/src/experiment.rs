@@ -181,13 +181,15 @@ impl Workbench {
     }
 
     fn load_scene(&self, shot: &Shot) -> Result<Staged, LaboratoryError> {
+        let limits = Limits::default().in_project(&self.files);
+        let limits = limits.map_err(Problems::from)?;
         let scene = load_scene_within(
             &self.files,
             &shot.scene,
             &shot.scene_settings,
             &self.progress,
             &self.cache,
-            &Limits::default(),
+            &limits,
         )?;
         Ok(Staged {
             name: shot.scene.clone(),

@@ -50,7 +50,7 @@ pub use experiment::{
     Chart, ChartCurve, Cost, EXPERIMENTS, Laboratory, LaboratoryError, Shot, Task, TimeSpan,
     experiment_names, run_experiment,
 };
-pub use limits::Limits;
+pub use limits::{GivenLimits, Limits};
 pub use log::LogLine;
 pub use memory::CountingAllocator;
 pub use names::{Entry, Names};

@@ -3,6 +3,8 @@
 //! Scripts come from strangers. Rhai itself bounds single values and counts operations; the watch
 //! adds the two things that it can't see: the clock, and the memory of everything together.
 
+mod given;
+
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
@@ -11,6 +13,8 @@ use lightbench_assets::Progress;
 use rhai::{Dynamic, Engine};
 
 use crate::memory;
+
+pub use given::GivenLimits;
 
 /// The bounds within which a script runs. Each one ends the script with a sentence that names it.
 #[derive(Clone, Debug, PartialEq, Eq)]

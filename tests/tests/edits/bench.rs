@@ -9,7 +9,7 @@ use lightbench::script::{Settings, list_pipelines, load_pipeline};
 use lightbench_tests::{Numbers, gpu};
 use tempfile::TempDir;
 
-use crate::mutation::mutate;
+use lightbench_tests::mutation::mutate;
 
 /// Longer than loading and compiling any edit may take.
 const PATIENCE: Duration = Duration::from_secs(30);

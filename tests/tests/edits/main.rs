@@ -9,7 +9,6 @@
 
 mod bench;
 mod children;
-mod mutation;
 
 use std::hash::{BuildHasher as _, RandomState};
 

@@ -256,9 +256,10 @@ impl Scenes {
             .filter(|_| self.shown.as_deref() == Some(&name));
         let kept = shown.map(Scene::kept).unwrap_or_default();
         let task = Task::start(move |progress| {
-            let limits = Limits::default();
-            let (cache, limits) = (&cache, &limits);
-            let scene = load_scene_again(&files, &wanted, &settings, progress, cache, limits, kept);
+            let limits = Limits::default().in_project(&files).map_err(Problems::from);
+            let scene = limits.and_then(|limits| {
+                load_scene_again(&files, &wanted, &settings, progress, &cache, &limits, kept)
+            });
             wake();
             scene
         });

@@ -161,12 +161,10 @@ pub(super) fn out_path(
         .with_hint(format!("write `{OUT}{name}`")));
     };
     if !endings.iter().any(|ending| below.ends_with(ending)) {
-        let endings = endings.iter().map(|ending| format!("`{ending}`"));
-        let endings: Vec<String> = endings.collect();
         return Err(
             Mistake::new(format!("`{path}` is no {what}")).with_hint(format!(
                 "name a file that ends in {}",
-                list(endings.iter().map(String::as_str), "or")
+                list(endings.iter().copied(), "or")
             )),
         );
     }

@@ -61,7 +61,7 @@ pub fn run_experiment(
     progress: &Progress,
 ) -> Result<(), Problems> {
     let path = find(files, EXPERIMENTS, name_or_path)?;
-    let limits = limits();
+    let limits = limits().in_project(files)?;
     let (host, bench) = host(files, &path, settings, laboratory, &limits);
     host.watch.stop_with(progress);
     host.log.pass_on(print);

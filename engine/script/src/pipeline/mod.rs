@@ -36,7 +36,8 @@ pub fn load_pipeline(
     name_or_path: &str,
     settings: &Settings,
 ) -> Result<PipelineDesc, Problems> {
-    load_pipeline_within(files, name_or_path, settings, &Limits::default())
+    let limits = Limits::default().in_project(files)?;
+    load_pipeline_within(files, name_or_path, settings, &limits)
 }
 
 /// [`load_pipeline`] with other limits.

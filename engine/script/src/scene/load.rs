@@ -37,7 +37,7 @@ pub fn load_scene(
     settings: &Settings,
     progress: &Progress,
 ) -> Result<Scene, Problems> {
-    let (cache, limits) = (Cache::default(), Limits::default());
+    let (cache, limits) = (Cache::default(), Limits::default().in_project(files)?);
     let scene = load_scene_within(files, name_or_path, settings, progress, &cache, &limits);
     // Nobody loads with this cache again.
     cache.clear();

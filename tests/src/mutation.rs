@@ -1,6 +1,6 @@
 //! Random edits of a text, such as a hasty hand or a half-written file make.
 
-use lightbench_tests::Numbers;
+use crate::Numbers;
 
 /// Signs and characters that do not belong where they come to stand.
 const ODD: [&str; 24] = [
