@@ -23,6 +23,7 @@ mod host;
 #[cfg(test)]
 mod hostile_tests;
 mod limits;
+mod lines;
 mod log;
 mod math;
 mod memory;
@@ -47,6 +48,7 @@ pub use experiment::{
     EXPERIMENTS, Laboratory, LaboratoryError, Shot, experiment_names, run_experiment,
 };
 pub use limits::Limits;
+pub use lines::draw_line;
 pub use log::LogLine;
 pub use memory::CountingAllocator;
 pub use names::{Entry, Names};
@@ -54,6 +56,7 @@ pub use parameters::{SceneParameter, SceneParameterKind};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
     BEHAVIOURS, BehaviourInfo, Ray, SCENE_EXTENSION, SCENES, Scene, SceneEntry, SceneEvent,
-    list_scenes, load_scene, load_scene_within, scene_names,
+    SceneSnapshot, console, list_scenes, load_scene, load_scene_within, overlays, plots,
+    scene_names,
 };
 pub use settings::{SettingValue, Settings};

@@ -63,6 +63,13 @@ pub trait Laboratory: Send {
     /// As [`Laboratory::draw`].
     fn first_invalid(&mut self, shot: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError>;
 
+    /// What the scene's scripts have plotted under a name until this frame, oldest first. Empty where
+    /// they plotted nothing.
+    ///
+    /// # Errors
+    /// As [`Laboratory::draw`].
+    fn values(&mut self, shot: &Shot, name: &str) -> Result<Vec<f64>, LaboratoryError>;
+
     /// The bytes of a picture file: of an EXR where the path ends so, else of a PNG.
     ///
     /// # Errors

@@ -107,6 +107,11 @@ impl Laboratory for Numbers {
         Ok(vec![value(0, None), value(1, Some(before))])
     }
 
+    fn values(&mut self, shot: &Shot, name: &str) -> Result<Vec<f64>, LaboratoryError> {
+        self.note(format!("values {name} {}", shot.frame));
+        Ok(vec![1.0, 2.5])
+    }
+
     fn first_invalid(&mut self, shot: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError> {
         let place = Invalid {
             pass: 1,
@@ -248,6 +253,13 @@ fn parts_of_targets_reach_the_laboratory() {
         aspect: Aspect::Stencil,
     };
     assert_eq!(asked[1], format!("ids 0 {part:?}"));
+}
+
+#[test]
+fn what_a_scene_plotted_is_an_array_of_numbers() {
+    let lines =
+        printed("let frame = draw(\"s\", \"p\", #{ frame: 3 }); print(frame.values(\"height\"));");
+    assert_eq!(lines, ["[1.0, 2.5]"]);
 }
 
 #[test]

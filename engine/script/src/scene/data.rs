@@ -13,7 +13,9 @@ use super::behaviours::{AtWork, Message, Starting};
 use super::input::Input;
 use super::materials::Material;
 use super::models::Models;
+use super::plots::Plots;
 use super::recipes::Recipes;
+use super::state::State;
 use crate::api::{Mistake, ScriptType};
 use crate::limits::{Limits, Watch};
 use crate::log::Log;
@@ -54,10 +56,14 @@ pub(super) struct Data {
     /// The materials that scripts hold, so that one that is asked for again is the same.
     pub(super) materials: HashMap<MaterialId, Material>,
     /// The entities in the order in which they were made.
-    made: Vec<Entity>,
+    pub(super) made: Vec<Entity>,
     /// Names that were looked up or given. The world alone would search all names each time.
-    names: HashMap<String, Entity>,
-    triangles: usize,
+    pub(super) names: HashMap<String, Entity>,
+    pub(super) triangles: usize,
+    /// What the scene's own script remembers.
+    pub(super) state: State,
+    /// What scripts have plotted.
+    pub(super) plots: Plots,
 }
 
 /// The data, shared by all functions of one scene's engine.
@@ -96,6 +102,8 @@ impl Stage {
             made: Vec::new(),
             names: HashMap::new(),
             triangles: 0,
+            state: State::default(),
+            plots: Plots::default(),
         })))
     }
 

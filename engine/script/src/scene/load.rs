@@ -11,7 +11,7 @@ use super::data::Stage;
 use super::saved::Textures;
 use super::{
     Read, SCENES, Scene, behaviours, bounds, cameras, columns, entities, fields, input, lights,
-    materials, models, motion, picking, saved, selection, shapes, state, tags, textures,
+    materials, models, motion, picking, plots, saved, selection, shapes, state, tags, textures,
 };
 use crate::host::{Extras, Host, find};
 use crate::limits::Limits;
@@ -113,6 +113,7 @@ pub(super) fn host(
     let mut stage = None;
     let at_work = AtWork::default();
     let defined = Textures::default();
+    let state = state::State::default();
     let host = Host::new(
         files,
         limits,
@@ -120,7 +121,11 @@ pub(super) fn host(
             register: &mut |api, watch, log| {
                 watch.stop_with(progress);
                 let made = Stage::new(files, reuse, settings, limits, watch, log, progress);
-                made.lock().at_work = at_work.clone();
+                {
+                    let mut data = made.lock();
+                    data.at_work = at_work.clone();
+                    data.state = state.clone();
+                }
                 api.section("Parameters");
                 let stage_of_parameters = made.clone();
                 parameters::register(api, move |arguments| {
@@ -160,9 +165,10 @@ pub(super) fn host(
                 tags::register(api, &made);
                 selection::register(api, &made);
                 columns::register(api, &made);
+                plots::register(api, &made);
                 stage = Some(made);
             },
-            globals: vec![("state", Dynamic::from(state::State::default()))],
+            globals: vec![("state", Dynamic::from(state.clone()))],
             variables: at_work.variables(),
             reuse: reuse.clone(),
         },

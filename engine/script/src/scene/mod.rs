@@ -4,6 +4,7 @@ mod behaviours;
 mod bounds;
 mod cameras;
 mod columns;
+pub mod console;
 mod data;
 mod entities;
 mod faces;
@@ -15,12 +16,15 @@ mod load;
 mod materials;
 mod models;
 mod motion;
+pub mod overlays;
 mod picking;
+pub mod plots;
 mod recipes;
 mod reflection;
 mod saved;
 mod selection;
 mod shapes;
+mod snapshot;
 mod state;
 mod tables;
 mod tags;
@@ -51,6 +55,8 @@ pub use list::{SceneEntry, list_scenes};
 pub use load::{load_scene, load_scene_within, scene_names};
 pub use picking::Ray;
 pub use saved::EXTENSION as SCENE_EXTENSION;
+pub use snapshot::SceneSnapshot;
+pub(crate) use values::expected as field_takes;
 
 /// The folder of the scene files.
 pub const SCENES: &str = "scripts/scenes";
@@ -77,6 +83,10 @@ pub struct Scene {
     systems: FrameSystems,
     /// What the script took in the last step.
     script_time: Option<SystemTime>,
+    /// Variables that lines of a console have declared.
+    console: Scope<'static>,
+    /// The camera that was made because the script made none.
+    pub(crate) default_camera: Option<Entity>,
 }
 
 impl std::fmt::Debug for Scene {
@@ -105,6 +115,8 @@ impl Scene {
             stopped: false,
             systems: FrameSystems::default(),
             script_time: None,
+            console: Scope::new(),
+            default_camera: None,
         }
     }
 
@@ -112,8 +124,11 @@ impl Scene {
     fn finish(&mut self) -> Result<(), Problems> {
         let mut data = self.stage.lock();
         let has_camera = !data.world.columns::<Camera>().is_empty();
-        if !has_camera && let Err(mistake) = cameras::add_default(&mut data) {
-            return Err(Problem::new(Place::file(self.path.as_str()), mistake.message).into());
+        if !has_camera {
+            let added = cameras::add_default(&mut data);
+            self.default_camera = Some(added.map_err(|mistake| {
+                Problem::new(Place::file(self.path.as_str()), mistake.message)
+            })?);
         }
         let problems = undeclared("scene", &self.path, &data.parameters, &data.settings);
         if !problems.is_empty() {
@@ -143,6 +158,7 @@ impl Scene {
     /// changed stays, and all others and the systems go on. Where several went wrong, the next steps
     /// tell of the others.
     pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
+        self.stage.lock().plots.set_time(time);
         let (took, result) = SystemTime::of("script", || {
             let result = self.call_update(time, dt);
             self.swap();
@@ -333,6 +349,8 @@ const _: fn() = || {
     assert_send::<Scene>();
 };
 
+#[cfg(test)]
+mod console_tests;
 #[cfg(test)]
 mod reach_tests;
 #[cfg(test)]

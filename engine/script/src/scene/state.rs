@@ -19,6 +19,16 @@ impl State {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// What it holds, apart from the handle that scripts have.
+    pub(super) fn contents(&self) -> Map {
+        self.lock().clone()
+    }
+
+    /// Puts other contents behind the handle.
+    pub(super) fn replace(&self, contents: Map) {
+        *self.lock() = contents;
+    }
+
     fn get(&self, name: &str) -> Result<Dynamic, Mistake> {
         let map = self.lock();
         map.get(name).cloned().ok_or_else(|| {

@@ -64,7 +64,7 @@ impl Event {
 }
 
 /// What calls the functions that a behaviour has.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Handlers([Option<AST>; HANDLERS.len()]);
 
 /// The name of the module of a slot.

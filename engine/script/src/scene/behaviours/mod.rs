@@ -7,6 +7,7 @@
 
 mod functions;
 mod handlers;
+mod kept;
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,7 +15,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use lightbench_render::Problem;
 use lightbench_render::problem::Problems;
 use lightbench_world::{Behaviour, Entity, Parameters, Value};
-use rhai::{Dynamic, Module, Scope};
+use rhai::{Dynamic, Module, Scope, Shared};
 
 use super::data::{Data, Stage};
 use super::input::Happened;
@@ -26,6 +27,7 @@ use crate::parameters::{SceneParameter, undeclared};
 use crate::settings::{SettingValue, Settings};
 pub(super) use functions::register;
 use handlers::{Event, Handlers};
+pub(super) use kept::KeptBehaviours;
 
 /// The folder of the behaviours.
 pub const BEHAVIOURS: &str = "scripts/behaviours";
@@ -83,6 +85,7 @@ impl AtWork {
 }
 
 /// A behaviour of one entity.
+#[derive(Clone)]
 struct Instance {
     entity: Entity,
     /// What the component said when it was started.
@@ -91,6 +94,8 @@ struct Instance {
     state: State,
     handlers: Handlers,
     slot: usize,
+    /// Its functions, as they are registered under the name of the slot.
+    module: Option<Shared<Module>>,
     /// After an error it is not called again.
     stopped: bool,
     /// Whether its entity still has it; for [`Behaviours::start_and_end`].
@@ -238,6 +243,7 @@ impl Behaviours {
                 state: State::default(),
                 handlers: Handlers::default(),
                 slot,
+                module: None,
                 stopped: false,
                 goes_on: true,
             };
@@ -280,7 +286,9 @@ impl Behaviours {
             return Err(Problems(problems));
         }
         instance.parameters = starting.parameters;
-        host.engine.register_static_module(module, made.into());
+        let made: Shared<Module> = made.into();
+        instance.module = Some(made.clone());
+        host.engine.register_static_module(module, made);
         Ok(())
     }
 
