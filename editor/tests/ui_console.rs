@@ -158,6 +158,23 @@ fn tab_completes_names_and_the_text_of_the_name_is_shown() {
     assert!(bench.count("point_light(name)") >= 1);
     assert!(!told || bench.count(about) >= 1);
 
+    // What is typed around Tab lands around the name, also where all comes in one frame.
+    press(&mut bench, Key::Enter);
+    bench
+        .harness
+        .event(egui::Event::Text("smoothst".to_owned()));
+    bench.harness.key_press(Key::Tab);
+    bench.harness.run_steps(3);
+    assert_eq!(line(&bench), "smoothstep(");
+    press(&mut bench, Key::Enter);
+    write(&mut bench, "smoothst");
+    bench.harness.key_press(Key::Tab);
+    bench
+        .harness
+        .event(egui::Event::Text("1, 2, 3)".to_owned()));
+    bench.harness.run_steps(3);
+    assert_eq!(line(&bench), "smoothstep(1, 2, 3)");
+
     // Tab stays in the line, and completes what is in a text.
     press(&mut bench, Key::Enter);
     write(&mut bench, "spawn(\"a long name\");");

@@ -338,7 +338,9 @@ fn each_action_is_a_line_that_does_the_same() {
     let mut bench = Bench::open();
     // The editor shows the script the beginning of time once more than an experiment does, so nothing
     // may depend on how often it is called.
-    let lamps = LAMPS.replace(" + ROW.float()", "");
+    let lamps = LAMPS
+        .replace(" + ROW.float()", "")
+        .replace("intensity(5)", "intensity(param(\"power\", 5.0, 0, 90))");
     open(&mut bench, &lamps);
     // The camera, as a line of the scene's script.
     let workbench = &mut bench.harness.state_mut().workbench;
@@ -381,6 +383,26 @@ fn each_action_is_a_line_that_does_the_same() {
     assert!(deed.line.contains("frame: 1"), "{}", deed.line);
     let stepped = bench.picture();
     lines.push((deed.line, stepped));
+    let workbench = &mut bench.harness.state_mut().workbench;
+    workbench.set_scene_parameter("power", Some(33.5.into()));
+    let swaps = workbench.scenes.swaps();
+    bench.until("the brighter lamp", |editor| {
+        editor.workbench.scenes.swaps() > swaps
+    });
+    bench.harness.run_steps(2);
+    assert_eq!(intensity(&mut bench, "still"), 33.5);
+    lines.push((bench.last_deed().line, bench.picture()));
+    button(&mut bench, "Stop");
+    let deed = bench.last_deed();
+    assert_eq!(deed.what, "the frame from which time ran");
+    assert!(!deed.line.contains("frame: "), "{}", deed.line);
+    lines.push((deed.line, bench.picture()));
+    bench.choose("Scene", "Cornell box");
+    bench.until("the other scene", |editor| {
+        editor.workbench.scenes.shown() == Some("cornell_box")
+    });
+    bench.harness.run_steps(2);
+    lines.push((bench.last_deed().line, bench.picture()));
     for (line, picture) in lines {
         assert_eq!(drawn(&bench, &line), picture, "{line}");
     }

@@ -1,7 +1,7 @@
 //! The line of the console: text, caret, earlier lines, and names that complete what was begun.
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Event, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 use lightbench::script::Scene;
 use lightbench::script::reference::{Completions, complete};
 
@@ -20,6 +20,28 @@ pub struct Line {
     completions: Option<Completions>,
     /// The candidate that stands in the line.
     chosen: Option<usize>,
+    /// Whether Tab was pressed behind letters of the same frame.
+    tab_waits: bool,
+}
+
+/// Whether letters were typed in this frame before Tab was pressed.
+fn typed_before_tab(ui: &Ui) -> bool {
+    ui.input(|input| {
+        let is_tab = |event: &Event| {
+            matches!(
+                event,
+                Event::Key {
+                    key: Key::Tab,
+                    pressed: true,
+                    ..
+                }
+            )
+        };
+        let before = input.events.iter().take_while(|event| !is_tab(event));
+        before
+            .into_iter()
+            .any(|event| matches!(event, Event::Text(_)))
+    })
 }
 
 impl Line {
@@ -34,12 +56,11 @@ impl Line {
     }
 
     /// The height that the candidates take.
-    pub fn candidates_height(&self) -> f32 {
-        if self.completions.is_some() {
-            LIST + 6.0
-        } else {
-            0.0
-        }
+    pub fn candidates_height(&self, ui: &Ui) -> f32 {
+        self.completions.as_ref().map_or(0.0, |completions| {
+            let rows = completions.candidates.len() as f32;
+            (rows * (ui.spacing().interact_size.y + 1.0)).min(LIST) + ui.spacing().item_spacing.y
+        })
     }
 
     /// Draws the line and its candidates. Returns what was entered.
@@ -52,9 +73,15 @@ impl Line {
         let id = egui::Id::unique("console line");
         let mut moved = false;
         if ui.memory(|memory| memory.has_focus(id)) {
+            let typed_before = typed_before_tab(ui);
             let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-            if pressed(Key::Tab) {
+            let tab = pressed(Key::Tab);
+            if std::mem::take(&mut self.tab_waits) || tab && !typed_before {
                 moved |= self.complete(scene);
+            } else if tab {
+                // What was typed before it is not in the line yet.
+                self.tab_waits = true;
+                ui.ctx().request_repaint();
             }
             if pressed(Key::ArrowUp) {
                 moved |= self.go_back(history);
@@ -62,6 +89,15 @@ impl Line {
             if pressed(Key::ArrowDown) {
                 moved |= self.go_forward(history);
             }
+        }
+        self.list(ui);
+        if moved {
+            // Before the field sees what was typed behind the key.
+            let letters = self.text[..self.caret].chars().count();
+            let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+            let cursor = CCursorRange::one(CCursor::new(letters));
+            state.cursor.set_char_range(Some(cursor));
+            state.store(ui.ctx(), id);
         }
         let before = self.text.clone();
         let edit = ui
@@ -82,18 +118,11 @@ impl Line {
             self.chosen = None;
             self.earlier = None;
         }
-        let mut state = edit.state;
-        if moved {
-            let letters = self.text[..self.caret].chars().count();
-            let cursor = CCursorRange::one(CCursor::new(letters));
-            state.cursor.set_char_range(Some(cursor));
-            state.store(ui.ctx(), id);
-        } else if let Some(range) = edit.cursor_range {
+        if let Some(range) = edit.cursor_range {
             let letters = range.primary.index.0;
             let at = self.text.char_indices().nth(letters);
             self.caret = at.map_or(self.text.len(), |(at, _)| at);
         }
-        self.list(ui);
         let entered =
             edit.response.response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if !entered {
@@ -197,7 +226,7 @@ impl Line {
         let Some(completions) = &self.completions else {
             return;
         };
-        let row = ui.text_style_height(&egui::TextStyle::Monospace) + 2.0;
+        let row = ui.spacing().interact_size.y;
         let count = completions.candidates.len();
         let mut wanted = None;
         let area = ScrollArea::vertical()

@@ -69,7 +69,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ),
         None => Vec::new(),
     };
-    let below = 52.0 + editor.console.line.candidates_height();
+    let below = 52.0 + editor.console.line.candidates_height(ui);
     let height = (ui.available_height() - below).max(30.0);
     output(&editor.console, ui, height);
     let panel = &mut editor.console;

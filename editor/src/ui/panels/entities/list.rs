@@ -81,7 +81,7 @@ impl Rows {
             ui.label(RichText::new(format!("{shown} of {all} entities")).weak());
         });
         let names = scene.world.columns::<Name>();
-        let row = ui.text_style_height(&egui::TextStyle::Body) + 4.0;
+        let row = ui.spacing().interact_size.y;
         let mut clicked = None;
         let area = ScrollArea::vertical()
             .id_salt("entities")
