@@ -126,6 +126,7 @@ fn a_field_is_changed_by_hand_marked_laid_on_again_and_reset() {
     let deed = bench.last_deed();
     assert_eq!(deed.line, "entity(\"still\").intensity(40.0);");
     assert_eq!(deed.script, Script::Scene);
+    assert_eq!(bench.copied_by("Copy"), deed.line);
 
     // The script says something else, then has no such lamp, then has it again.
     reload(&mut bench, &LAMPS.replace("intensity(5)", "intensity(7)"));
@@ -148,6 +149,7 @@ fn a_field_is_changed_by_hand_marked_laid_on_again_and_reset() {
     assert_eq!(intensity(&mut bench, "still"), 5.0);
     assert_eq!(bench.until_picture_is_not(&bright), before);
     assert_eq!(bench.count("Changed by hand"), 0);
+    assert_eq!(bench.count("No field is changed by hand"), 1);
     assert_eq!(bench.last_deed().line, "entity(\"still\").intensity(5.0);");
 }
 
@@ -172,7 +174,7 @@ fn what_was_changed_wins_over_a_script_that_writes_it_and_the_panel_says_so() {
     button(&mut bench, "Reset entity");
     let now = intensity(&mut bench, "busy");
     assert!((3.0..4.0).contains(&now), "{now}");
-    assert_eq!(bench.count("changed by hand"), 0);
+    assert_eq!(bench.count("No field is changed by hand"), 1);
 
     type_number(&mut bench, "Range", "9");
     button(&mut bench, "Reset all");

@@ -72,10 +72,21 @@ pub fn complete(scene: &Scene, line: &str, caret: usize) -> Completions {
     }
     all.retain(|candidate| candidate.text.starts_with(begun));
     let all: BTreeSet<Candidate> = all.into_iter().collect();
-    Completions {
-        start,
-        candidates: all.into_iter().take(MOST).collect(),
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for candidate in all {
+        let is_full = candidates.len() == MOST;
+        match candidates.last_mut() {
+            // Forms of one function stand in one line.
+            Some(last) if last.text == candidate.text => {
+                if last.form != candidate.form {
+                    last.form += &format!(", {}", candidate.form);
+                }
+            }
+            _ if is_full => break,
+            _ => candidates.push(candidate),
+        }
     }
+    Completions { start, candidates }
 }
 
 fn candidate(entry: &Entry) -> Candidate {
@@ -260,6 +271,9 @@ mod tests {
         assert!(texts(&scene, "bulb.position.inten").is_empty());
         assert!(texts(&scene, "unknown.inten").contains(&"intensity".to_owned()));
         assert!(texts(&scene, "3").is_empty());
+        let forms = complete(&scene, "bulb.rotat", 10).candidates;
+        let forms: Vec<&str> = forms.iter().map(|one| one.form.as_str()).collect();
+        assert_eq!(forms, [".rotate(rotation), .rotate(x, y, z)", ".rotation"]);
     }
 
     #[test]

@@ -116,10 +116,12 @@ fn grant(editor: &mut Editor, ui: &Ui, wish: Wish) {
 fn over_all(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
     let overlays = editor.workbench.overlays_now();
     let count = overlays.map_or(0, |overlays| overlays.iter().count());
-    if count == 0 {
-        return;
-    }
     ui.horizontal_wrapped(|ui| {
+        if count == 0 {
+            // In the same place, so that nothing moves under who drags the first field.
+            ui.label(RichText::new("No field is changed by hand").weak());
+            return;
+        }
         let fields = if count == 1 { "field" } else { "fields" };
         ui.label(format!("{count} {fields} changed by hand"));
         let about = "Lines for the end of the scene's script that do the same";
