@@ -108,7 +108,9 @@ fn a_line_changes_the_scene_and_no_key_of_it_is_a_shortcut() {
 
 #[test]
 fn earlier_lines_come_back_also_after_a_restart() {
-    let mut bench = Bench::open();
+    let folder = tempfile::tempdir().unwrap();
+    let kept = Some(folder.path().join("settings/editor.json"));
+    let mut bench = Bench::open_with(kept.clone());
     focus(&mut bench);
     for text in ["1 + 1", "7 * 191"] {
         write(&mut bench, text);
@@ -125,7 +127,6 @@ fn earlier_lines_come_back_also_after_a_restart() {
     press(&mut bench, Key::ArrowDown);
     assert_eq!(line(&bench), "draft");
 
-    let kept = bench.kept.clone();
     drop(bench);
     let mut again = Bench::open_with(kept);
     focus(&mut again);

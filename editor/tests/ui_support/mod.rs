@@ -34,8 +34,6 @@ pub struct Bench {
     pub files: Files,
     /// The editor and its widgets.
     pub harness: Harness<'static, Editor>,
-    /// The file of what is kept over restarts.
-    pub kept: PathBuf,
     // Last, so that the watcher ends before the folder does.
     _project: TempDir,
 }
@@ -43,13 +41,11 @@ pub struct Bench {
 impl Bench {
     /// Opens the Cornell box through deferred shading and waits for the first picture.
     pub fn open() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        // Where it lies is gone with the test's process; nothing else reads it.
-        Self::open_with(folder.keep().join("editor.json"))
+        Self::open_with(None)
     }
 
-    /// The same, with a file of what was kept before.
-    pub fn open_with(kept: PathBuf) -> Self {
+    /// The same, with a file of what is kept over restarts.
+    pub fn open_with(kept: Option<PathBuf>) -> Self {
         let project = tempfile::tempdir().unwrap();
         let files = Files::with_project(project.path()).unwrap();
         let gpu = Gpu::open(&GpuOptions::default()).unwrap();
@@ -73,7 +69,7 @@ impl Bench {
         };
         let mut workbench = Workbench::new(gpu, options, Arc::new(|| {}));
         workbench.resolution.adaptive = false;
-        let editor = Editor::new(workbench, painter, Kept::read(Some(kept.clone())));
+        let editor = Editor::new(workbench, painter, Kept::read(kept));
         let harness = Harness::builder()
             .with_size(egui::vec2(1100.0, 760.0))
             .renderer(renderer)
@@ -87,7 +83,6 @@ impl Bench {
         let mut bench = Self {
             files,
             harness,
-            kept,
             _project: project,
         };
         bench.until("the first picture", |editor| {

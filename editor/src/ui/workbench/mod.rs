@@ -352,6 +352,8 @@ impl Workbench {
             self.play_goes_on();
         } else {
             self.before = None;
+            // Its camera is another one, which nobody moved.
+            self.noted_view = None;
             self.clock.rewind();
             self.clock.playing = animated;
             self.camera.reset();
