@@ -1,7 +1,8 @@
 //! `lightbench docs`: the reference, from what the program knows of itself.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use lightbench::assets::files::{Files, write_atomic};
 use lightbench::script::reference;
@@ -22,6 +23,8 @@ enum Page {
     Shaders,
     /// What experiments can call, to draw frames and look into them
     Experiments,
+    /// Definition files (.d.rhai) of all kinds of scripts, for text editors that know Rhai
+    Definitions,
 }
 
 /// Arguments of `lightbench docs`.
@@ -30,6 +33,7 @@ enum Page {
 Examples:
   lightbench docs pipelines --out pipelines.md
   lightbench docs shaders | less
+  lightbench docs definitions --out .rhai/definitions
 
 The pages are Markdown. They are made from the functions that are registered with the engine and from
 the files of the shader library, so they fit the program that prints them.")]
@@ -37,7 +41,7 @@ pub struct Arguments {
     /// The page to print
     #[arg(value_name = "PAGE")]
     page: Page,
-    /// The file to write instead of the standard output
+    /// The file to write instead of the standard output; for definitions, the folder
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -47,12 +51,16 @@ pub struct Arguments {
 /// # Errors
 /// A file of the project that can't be read, or a file that can't be written.
 pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
+    if arguments.page == Page::Definitions {
+        return definitions(arguments.out.as_deref());
+    }
     let text = match arguments.page {
         Page::Pipelines => reference::pipelines(files)?,
         Page::Api => reference::api(),
         Page::Abilities => reference::abilities(files)?,
         Page::Shaders => reference::shaders(files)?,
         Page::Experiments => reference::experiments(),
+        Page::Definitions => String::new(),
     };
     match &arguments.out {
         Some(out) => {
@@ -62,4 +70,20 @@ pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
         }
         None => say(text.trim_end()),
     }
+}
+
+/// Writes the definition files into a folder, which is made where it is not there; without one, prints
+/// them all.
+fn definitions(out: Option<&Path>) -> anyhow::Result<()> {
+    let Some(folder) = out else {
+        let texts = reference::definitions().into_iter().map(|one| one.text);
+        return say(texts.collect::<Vec<_>>().join("\n").trim_end());
+    };
+    std::fs::create_dir_all(folder).with_context(|| format!("--out {}", folder.display()))?;
+    for reference::Definitions { file, text } in reference::definitions() {
+        let path = folder.join(file);
+        write_atomic(&path, text.as_bytes())?;
+        say(path.display().to_string())?;
+    }
+    Ok(())
 }

@@ -61,6 +61,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         pipeline,
         pipeline_settings,
         gpu: arguments.gpu.options(),
+        kept: ui::kept::default_path(),
         files,
     })
 }

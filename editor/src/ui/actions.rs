@@ -12,6 +12,8 @@ pub enum Action {
     PlayPause,
     /// One step further in time.
     Step,
+    /// Give back what there was before time ran.
+    Stop,
     /// Back to the beginning of time.
     Rewind,
     /// Show the whole scene.
@@ -86,7 +88,11 @@ pub const MENUS: [(&str, &[&[Entry]]); 5] = [
                 entry(Action::Toggle(Panel::Pixel), "Pixel", None),
                 entry(Action::Toggle(Panel::Pipeline), "Pipeline parameters", None),
                 entry(Action::Toggle(Panel::Scene), "Scene parameters", None),
+                entry(Action::Toggle(Panel::Entities), "Entities", None),
                 entry(Action::Toggle(Panel::Log), "Log", None),
+                entry(Action::Toggle(Panel::Console), "Console", None),
+                entry(Action::Toggle(Panel::Actions), "Actions", None),
+                entry(Action::Toggle(Panel::Plots), "Plots", None),
             ],
             &[
                 entry(Action::ResetLayout, "Reset the layout", None),
@@ -114,6 +120,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 5] = [
         &[&[
             entry(Action::PlayPause, "Play or pause", key(Key::Space)),
             entry(Action::Step, "Step", key(Key::Period)),
+            entry(Action::Stop, "Stop", command(Key::Period)),
             entry(Action::Rewind, "Back to the beginning", key(Key::Backspace)),
         ]],
     ),

@@ -8,7 +8,11 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
+use super::kept::Kept;
 use super::layout::{self, Panel};
+use super::panels::console::ConsolePanel;
+use super::panels::entities::EntitiesPanel;
+use super::panels::plots::PlotsPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::screen::Screen;
 use super::workbench::Workbench;
@@ -21,6 +25,11 @@ pub struct Editor {
     pub(super) layout: Tree<Panel>,
     pub(super) passes: PassesPanel,
     pub(super) targets: TargetsPanel,
+    pub(super) entities: EntitiesPanel,
+    pub(super) console: ConsolePanel,
+    pub(super) plots: PlotsPanel,
+    /// What is kept over restarts.
+    pub kept: Kept,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     pub(super) hint: bool,
@@ -31,7 +40,11 @@ pub struct Editor {
 
 impl Editor {
     /// An editor whose widgets are drawn by `painter` on the workbench's device.
-    pub fn new(workbench: Workbench, painter: Arc<RwLock<egui_wgpu::Renderer>>) -> Self {
+    pub fn new(
+        workbench: Workbench,
+        painter: Arc<RwLock<egui_wgpu::Renderer>>,
+        kept: Kept,
+    ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
         Self {
             workbench,
@@ -39,6 +52,10 @@ impl Editor {
             layout: layout::first(),
             passes: PassesPanel::default(),
             targets: TargetsPanel::default(),
+            entities: EntitiesPanel::default(),
+            console: ConsolePanel::default(),
+            plots: PlotsPanel::default(),
+            kept,
             bring: None,
             hint: true,
             help: false,
@@ -51,6 +68,11 @@ impl Editor {
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.workbench.move_to(gpu);
+    }
+
+    /// Brings a panel before those that share its place.
+    pub fn show(&mut self, panel: Panel) {
+        layout::set_visible(&mut self.layout, panel, true);
     }
 
     /// Whether somebody asked to close the window.
@@ -93,12 +115,10 @@ impl Editor {
     pub fn perform(&mut self, action: Action, ctx: &egui::Context) {
         let workbench = &mut self.workbench;
         match action {
-            Action::PlayPause => workbench.clock.playing = !workbench.clock.playing,
-            Action::Step => {
-                workbench.clock.playing = false;
-                workbench.clock.step();
-            }
-            Action::Rewind => workbench.clock.rewind(),
+            Action::PlayPause => workbench.play_or_pause(),
+            Action::Step => workbench.step(),
+            Action::Stop => workbench.stop(),
+            Action::Rewind => workbench.rewind(),
             Action::Frame => workbench.frame_scene(),
             Action::ResetCamera => workbench.camera.reset(),
             Action::NextPipeline => self.select_beside(1),
@@ -158,7 +178,11 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Passes => panels::passes::show(self.editor, ui, self.now),
             Panel::Pipeline => panels::parameters::pipeline(self.editor, ui),
             Panel::Scene => panels::parameters::scene(self.editor, ui),
+            Panel::Entities => panels::entities::show(self.editor, ui),
             Panel::Log => panels::log::show(self.editor, ui),
+            Panel::Console => panels::console::show(self.editor, ui),
+            Panel::Actions => panels::actions::show(self.editor, ui),
+            Panel::Plots => panels::plots::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

@@ -17,8 +17,16 @@ pub enum Panel {
     Pipeline,
     /// Parameters of the scene.
     Scene,
+    /// The entities, and the fields of one.
+    Entities,
     /// What happened.
     Log,
+    /// Lines of scene script.
+    Console,
+    /// What was done, as lines of scripts.
+    Actions,
+    /// Curves that scripts plot.
+    Plots,
 }
 
 impl Panel {
@@ -31,7 +39,11 @@ impl Panel {
             Self::Passes => "Passes",
             Self::Pipeline => "Pipeline",
             Self::Scene => "Scene",
+            Self::Entities => "Entities",
             Self::Log => "Log",
+            Self::Console => "Console",
+            Self::Actions => "Actions",
+            Self::Plots => "Plots",
         }
     }
 }
@@ -47,14 +59,14 @@ pub fn first() -> Tree<Panel> {
         tiles.insert_tab_tile(panes)
     };
     let viewport = tabs(&[Panel::Viewport]);
-    let log = tabs(&[Panel::Log]);
+    let log = tabs(&[Panel::Log, Panel::Console, Panel::Actions, Panel::Plots]);
     let parameters = tabs(&[Panel::Pipeline, Panel::Scene]);
     let passes = tabs(&[Panel::Passes]);
-    let targets = tabs(&[Panel::Targets, Panel::Pixel]);
+    let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
     let left = split(
         &mut tiles,
         LinearDir::Vertical,
-        &[(viewport, 0.8), (log, 0.2)],
+        &[(viewport, 0.76), (log, 0.24)],
     );
     let right = split(
         &mut tiles,

@@ -6,6 +6,7 @@
 pub mod actions;
 pub mod bench;
 pub mod editor;
+pub mod kept;
 pub mod layout;
 mod panels;
 mod screen;
@@ -15,6 +16,8 @@ mod window;
 pub mod workbench;
 
 pub use editor::Editor;
+
+use std::path::PathBuf;
 
 use lightbench::assets::files::Files;
 use lightbench::render::GpuOptions;
@@ -35,6 +38,8 @@ pub struct EditorOptions {
     pub pipeline_settings: Settings,
     /// Which graphics adapter to use.
     pub gpu: GpuOptions,
+    /// The file of what is kept over restarts; without one nothing is.
+    pub kept: Option<PathBuf>,
 }
 
 impl EditorOptions {
@@ -48,6 +53,7 @@ impl EditorOptions {
             pipeline: "deferred_shading".to_owned(),
             pipeline_settings: Settings::new(),
             gpu: GpuOptions::default(),
+            kept: None,
         }
     }
 }

@@ -10,6 +10,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
+use super::kept::Kept;
 use super::surface::WindowSurface;
 use super::workbench::Workbench;
 use super::{Editor, EditorOptions, theme};
@@ -84,8 +85,9 @@ impl Program {
             window.theme(),
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
+        let kept = Kept::read(options.kept.clone());
         let workbench = Workbench::new(gpu, options, wake);
-        let editor = Editor::new(workbench, surface.painter());
+        let editor = Editor::new(workbench, surface.painter(), kept);
         window.request_redraw();
         self.running = Some(Running {
             surface,

@@ -4,7 +4,7 @@
 #![allow(dead_code)]
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
@@ -12,10 +12,16 @@ use egui::mutex::RwLock;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::wgpu::WgpuTestRenderer;
+use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
+use lightbench::lab::experiment::Workbench as Laboratory;
 use lightbench::render::readback::read_bytes;
 use lightbench::render::{Gpu, GpuOptions};
+use lightbench::script::{LogLine, Settings, run_experiment};
+use lightbench_editor::ui::kept::Kept;
+use lightbench_editor::ui::layout::Panel;
 use lightbench_editor::ui::workbench::Workbench;
+use lightbench_editor::ui::workbench::history::Deed;
 use lightbench_editor::ui::{Editor, EditorOptions, theme};
 use tempfile::TempDir;
 
@@ -35,6 +41,11 @@ pub struct Bench {
 impl Bench {
     /// Opens the Cornell box through deferred shading and waits for the first picture.
     pub fn open() -> Self {
+        Self::open_with(None)
+    }
+
+    /// The same, with a file of what is kept over restarts.
+    pub fn open_with(kept: Option<PathBuf>) -> Self {
         let project = tempfile::tempdir().unwrap();
         let files = Files::with_project(project.path()).unwrap();
         let gpu = Gpu::open(&GpuOptions::default()).unwrap();
@@ -58,7 +69,7 @@ impl Bench {
         };
         let mut workbench = Workbench::new(gpu, options, Arc::new(|| {}));
         workbench.resolution.adaptive = false;
-        let editor = Editor::new(workbench, painter);
+        let editor = Editor::new(workbench, painter, Kept::read(kept));
         let harness = Harness::builder()
             .with_size(egui::vec2(1100.0, 760.0))
             .renderer(renderer)
@@ -168,6 +179,59 @@ impl Bench {
     pub fn own(&self, path: &str) -> (PathBuf, String) {
         let text = self.files.read_text(path).unwrap();
         (self.files.copy_to_project(path).unwrap(), text)
+    }
+
+    /// Brings a panel before those that share its place.
+    pub fn show(&mut self, panel: Panel) {
+        self.harness.state_mut().show(panel);
+        self.harness.run_steps(3);
+    }
+
+    /// Saves a file of the project.
+    pub fn save(&self, path: &str, text: &str) {
+        let path = self._project.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+
+    /// What was done last.
+    pub fn last_deed(&self) -> Deed {
+        let history = &self.harness.state().workbench.history;
+        history.deeds().next_back().unwrap().clone()
+    }
+
+    /// Clicks a button and gives what it copies.
+    pub fn copied_by(&mut self, label: &str) -> String {
+        self.harness
+            .get_by_role_and_label(Role::Button, label)
+            .click();
+        for _ in 0..4 {
+            self.harness.step();
+            let commands = &self.harness.output().platform_output.commands;
+            let text = commands.iter().find_map(|command| match command {
+                egui::OutputCommand::CopyText(text) => Some(text.clone()),
+                _ => None,
+            });
+            if let Some(text) = text {
+                return text;
+            }
+        }
+        String::new()
+    }
+
+    /// Runs an experiment on the project's files, and gives what it printed.
+    pub fn run_experiment(&self, text: &str) -> Vec<String> {
+        let said = Arc::new(Mutex::new(Vec::new()));
+        self.save("scripts/experiments/test.rhai", text);
+        let progress = Progress::new();
+        let gpu = GpuOptions::default();
+        let laboratory = Laboratory::new(&self.files, gpu, &progress, |_| {});
+        let told = Arc::clone(&said);
+        let print = move |line: LogLine| told.lock().unwrap().push(line.text);
+        let (settings, laboratory) = (Settings::new(), Box::new(laboratory));
+        run_experiment(&self.files, "test", &settings, laboratory, print, &progress).unwrap();
+        let said = said.lock().unwrap();
+        said.clone()
     }
 
     /// Whether anything keeps the newest state off the screen.

@@ -286,6 +286,18 @@ impl Laboratory for Workbench {
         crate::curves::chart(chart).into_bytes()
     }
 
+    fn values(&mut self, shot: &Shot, name: &str) -> Result<Vec<f64>, LaboratoryError> {
+        self.bring_scene(shot)?;
+        let plots = self.scenes.last().map(|staged| staged.scene.plots());
+        let plots = plots.unwrap_or_default();
+        let plot = plots.into_iter().find(|plot| plot.name == name);
+        Ok(plot
+            .into_iter()
+            .flat_map(|plot| plot.values)
+            .map(|(_, value)| value)
+            .collect())
+    }
+
     fn encode(
         &self,
         path: &str,

@@ -73,7 +73,7 @@ impl<'a> Api<'a> {
     /// Registers a type.
     pub(crate) fn object<T: ScriptType>(&mut self) {
         self.engine.register_type_with_name::<T>(T::NAME);
-        self.names.add_type(T::NAME);
+        self.names.add_type(TypeId::of::<T>(), T::NAME);
     }
 
     /// Registers a plain function by its form, as in `noise(x, y, z)`.
@@ -83,7 +83,7 @@ impl<'a> Api<'a> {
         about: &'static str,
         body: impl Fn(&mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
     ) {
-        let entry = Arc::new(Entry::new(None, form, false, about));
+        let entry = Arc::new(Entry::new(None, form, false, about).giving::<R>());
         let types = vec![TypeId::of::<Dynamic>(); entry.arguments.len()];
         self.register(&entry.name.clone(), &types, entry, 0, body);
     }
@@ -127,7 +127,7 @@ impl<'a> Api<'a> {
         about: &'static str,
         body: impl Fn(&mut Arguments) -> Result<f64, Mistake> + Send + Sync + 'static,
     ) {
-        let entry = Arc::new(Entry::new(None, form, false, about));
+        let entry = Arc::new(Entry::new(None, form, false, about).giving::<f64>());
         self.names.add(Entry::clone(&entry));
         let body = Arc::new(body);
         let count = entry.arguments.len();
@@ -158,7 +158,7 @@ impl<'a> Api<'a> {
         about: &'static str,
         body: impl Fn(T, &mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
     ) {
-        let entry = Arc::new(Entry::new(Some(T::NAME), form, false, about));
+        let entry = Arc::new(Entry::new(Some(T::NAME), form, false, about).giving::<R>());
         let mut types = vec![TypeId::of::<Dynamic>(); entry.arguments.len() + 1];
         types[0] = TypeId::of::<T>();
         self.register(&entry.name.clone(), &types, entry, 1, with_receiver(body));
@@ -171,7 +171,7 @@ impl<'a> Api<'a> {
         about: &'static str,
         body: impl Fn(T, &mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
     ) {
-        let entry = Arc::new(Entry::new(Some(T::NAME), name, true, about));
+        let entry = Arc::new(Entry::new(Some(T::NAME), name, true, about).giving::<R>());
         let types = [TypeId::of::<T>()];
         let name = format!("get${name}");
         self.register(&name, &types, entry, 1, with_receiver(body));
@@ -183,6 +183,7 @@ impl<'a> Api<'a> {
         name: &str,
         body: impl Fn(&mut T, &mut Arguments) -> Result<(), Mistake> + Send + Sync + 'static,
     ) {
+        self.names.add_setter(T::NAME, name);
         let entry = Arc::new(Entry::new(Some(T::NAME), name, true, ""));
         let types = [TypeId::of::<T>(), TypeId::of::<Dynamic>()];
         let name = format!("set${name}");
@@ -206,7 +207,7 @@ impl<'a> Api<'a> {
         about: &'static str,
         body: impl Fn(&mut Arguments) -> Result<R, Mistake> + Send + Sync + 'static,
     ) {
-        let entry = Arc::new(Entry::new(None, form, false, about));
+        let entry = Arc::new(Entry::new(None, form, false, about).giving::<R>());
         self.names.add(Entry::clone(&entry));
         let body = Arc::new(body);
         for types in mixtures {
@@ -228,6 +229,7 @@ impl<'a> Api<'a> {
         name: &str,
         body: impl Fn(&T, &mut Arguments) -> Result<(), Mistake> + Send + Sync + 'static,
     ) {
+        self.names.add_setter(T::NAME, name);
         let entry = Entry::new(Some(T::NAME), name, true, "");
         let set = move |context: NativeCallContext, handle: &mut T, value: Dynamic| {
             let (mut receiver, mut value) = (Dynamic::from(handle.clone()), value);

@@ -60,11 +60,33 @@ impl Compiler {
         Ok(compiled.ast)
     }
 
+    /// Compiles a text that sees the variables of a scope, and keeps nothing of it for later.
+    pub(crate) fn compile_line(
+        &self,
+        engine: &Engine,
+        path: &str,
+        text: &str,
+        scope: &Scope,
+    ) -> Result<Arc<AST>, Box<EvalAltResult>> {
+        let compiled = self.compile_with(engine, path, text, scope.clone())?;
+        Ok(compiled.ast)
+    }
+
     fn compile_anew(
         &self,
         engine: &Engine,
         path: &str,
         text: &str,
+    ) -> Result<Compiled, Box<EvalAltResult>> {
+        self.compile_with(engine, path, text, Scope::new())
+    }
+
+    fn compile_with(
+        &self,
+        engine: &Engine,
+        path: &str,
+        text: &str,
+        mut known: Scope,
     ) -> Result<Compiled, Box<EvalAltResult>> {
         if text.len() > self.limits.file_bytes {
             return Err(Mistake::new(format!(
@@ -85,7 +107,6 @@ impl Compiler {
         // Strict mode refuses unknown names when a file is read, not when a line happens to run.
         // It has to be told of the names that are resolved later: the host's, and constants of the
         // file, which its functions see.
-        let mut known = Scope::new();
         for name in &self.globals {
             known.push(*name, ());
         }

@@ -27,6 +27,8 @@ pub(crate) struct Host {
     pub(crate) compiler: Arc<Compiler>,
     pub(crate) watch: Arc<Watch>,
     pub(crate) log: Log,
+    /// The random numbers that its scripts take.
+    pub(crate) rows: random::Rows,
     resolver: Arc<Resolver>,
     files: Files,
 }
@@ -86,7 +88,7 @@ impl Host {
         easing::register(&mut api);
         division::register(&mut api);
         color::register(&mut api);
-        random::register(&mut api);
+        let rows = random::register(&mut api);
         noise::register(&mut api);
         (extras.register)(&mut api, &watch, &log);
 
@@ -113,6 +115,7 @@ impl Host {
             compiler,
             watch,
             log,
+            rows,
             resolver,
             files: files.clone(),
         }
@@ -125,6 +128,11 @@ impl Host {
             .read_text(path)
             .map_err(|error| Problem::new(Place::file(path), error.to_string()))?;
         self.compile(path, &text)
+    }
+
+    /// Lets the imports that follow come from that file.
+    pub(crate) fn begin(&self, path: &str) {
+        self.resolver.begin(path);
     }
 
     /// Compiles a text as if it were that file.

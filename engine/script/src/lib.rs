@@ -25,6 +25,7 @@ mod host;
 #[cfg(test)]
 mod hostile_tests;
 mod limits;
+mod lines;
 mod log;
 mod math;
 mod matrix;
@@ -51,6 +52,7 @@ pub use experiment::{
     experiment_names, run_experiment,
 };
 pub use limits::{GivenLimits, Limits};
+pub use lines::draw_line;
 pub use log::LogLine;
 pub use memory::CountingAllocator;
 pub use names::{Entry, Names};
@@ -58,7 +60,7 @@ pub use parameters::{SceneParameter, SceneParameterKind};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
     BEHAVIOURS, BehaviourInfo, KeptState, PipelineWish, Ray, SCENE_EXTENSION, SCENES, Scene,
-    SceneEntry, SceneEvent, list_scenes, load_scene, load_scene_again, load_scene_within,
-    scene_names,
+    SceneEntry, SceneEvent, SceneSnapshot, console, list_scenes, load_scene, load_scene_again,
+    load_scene_within, overlays, plots, scene_names,
 };
 pub use settings::{SettingValue, Settings};

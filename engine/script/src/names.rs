@@ -1,5 +1,6 @@
 //! Every name that scripts can use, with its forms, for messages and for the reference.
 
+use std::any::TypeId;
 use std::collections::BTreeSet;
 
 use lightbench_render::problem::suggestion;
@@ -19,6 +20,8 @@ pub struct Entry {
     pub about: &'static str,
     /// Under which heading of the reference it belongs; empty where nobody said.
     pub section: &'static str,
+    /// What it gives; unknown for the writing of a property.
+    pub(crate) gives: Option<TypeId>,
 }
 
 impl Entry {
@@ -44,7 +47,14 @@ impl Entry {
             property,
             about,
             section: "",
+            gives: None,
         }
+    }
+
+    /// The same with the type of what it gives.
+    pub(crate) fn giving<R: 'static>(mut self) -> Self {
+        self.gives = Some(TypeId::of::<R>());
+        self
     }
 
     /// The form as one writes it: `at(x, y, z)`, `.range(metres)`, `.position`.
@@ -62,9 +72,11 @@ impl Entry {
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     entries: Vec<Entry>,
+    /// Properties that can be written too: of which type, and their names.
+    settable: BTreeSet<(&'static str, String)>,
     /// Plain functions of Rhai itself.
     builtin: BTreeSet<String>,
-    types: Vec<&'static str>,
+    types: Vec<(TypeId, &'static str)>,
     /// The heading of what is added next.
     section: &'static str,
 }
@@ -81,15 +93,57 @@ impl Names {
         self.entries.push(Entry { section, ..entry });
     }
 
+    pub(crate) fn add_setter(&mut self, receiver: &'static str, name: &str) {
+        self.settable.insert((receiver, name.to_owned()));
+    }
+
+    /// Whether a property can be written.
+    pub(crate) fn is_settable(&self, property: &Entry) -> bool {
+        let mut settable = self.settable.iter();
+        settable
+            .any(|(receiver, name)| Some(*receiver) == property.receiver && *name == property.name)
+    }
+
     /// Puts what is added from now on under a heading of the reference.
     pub(crate) fn begin_section(&mut self, title: &'static str) {
         self.section = title;
     }
 
-    pub(crate) fn add_type(&mut self, name: &'static str) {
-        if !self.types.contains(&name) {
-            self.types.push(name);
+    pub(crate) fn add_type(&mut self, id: TypeId, name: &'static str) {
+        if !self.is_type(name) {
+            self.types.push((id, name));
         }
+    }
+
+    /// The types of objects, as scripts name them.
+    pub(crate) fn types(&self) -> impl Iterator<Item = &'static str> {
+        self.types.iter().map(|(_, name)| *name)
+    }
+
+    /// The type of what an entry gives, as scripts name it; `?` where it depends or is not known.
+    pub(crate) fn given_by(&self, entry: &Entry) -> &'static str {
+        let Some(id) = entry.gives else {
+            return "?";
+        };
+        let of_objects = self.types.iter().copied();
+        let plain = [
+            (TypeId::of::<()>(), "()"),
+            (TypeId::of::<bool>(), "bool"),
+            (TypeId::of::<i64>(), "int"),
+            (TypeId::of::<f64>(), "float"),
+            (TypeId::of::<String>(), "String"),
+            (TypeId::of::<rhai::ImmutableString>(), "String"),
+            (TypeId::of::<rhai::Array>(), "Array"),
+            (TypeId::of::<rhai::Map>(), "Map"),
+        ];
+        let mut all = of_objects.chain(plain);
+        all.find(|(known, _)| *known == id)
+            .map_or("?", |(_, name)| name)
+    }
+
+    /// Plain functions of Rhai itself.
+    pub(crate) fn builtin(&self) -> impl Iterator<Item = &str> {
+        self.builtin.iter().map(String::as_str)
     }
 
     /// Takes note of Rhai's own functions from their signatures, as in `push(array: array)`.
@@ -103,7 +157,7 @@ impl Names {
     }
 
     pub(crate) fn is_type(&self, name: &str) -> bool {
-        self.types.contains(&name)
+        self.types.iter().any(|(_, known)| *known == name)
     }
 
     /// The forms of a method of that type, or of a plain function.

@@ -1,6 +1,6 @@
 //! Random numbers that are the same on every machine and in every run.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use lightbench_world::glam::DVec3;
 use rand::RngCore;
@@ -63,12 +63,62 @@ impl Random {
     }
 }
 
-pub(crate) fn register(api: &mut Api) {
+/// All rows that scripts of one engine have begun and still hold.
+///
+/// A script keeps a row wherever it likes, in a constant too, and each number that it takes moves the
+/// row on. Who goes back to an earlier moment has to move the rows back.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rows(Arc<Mutex<Vec<Weak<Mutex<Pcg64>>>>>);
+
+impl Rows {
+    fn add(&self, random: &Random) {
+        let mut rows = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // Scripts that begin rows in each step must not fill the list.
+        if rows.len() == rows.capacity() {
+            rows.retain(|row| row.strong_count() > 0);
+        }
+        rows.push(Arc::downgrade(&random.0));
+    }
+
+    /// Where each row stands.
+    pub(crate) fn places(&self) -> RowPlaces {
+        let rows = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let held = rows.iter().filter_map(Weak::upgrade).map(Random);
+        RowPlaces(
+            held.map(|row| {
+                let place = row.lock().clone();
+                (row, place)
+            })
+            .collect(),
+        )
+    }
+}
+
+/// Where rows stood at one moment.
+#[derive(Clone, Debug)]
+pub(crate) struct RowPlaces(Vec<(Random, Pcg64)>);
+
+impl RowPlaces {
+    /// Moves the rows back.
+    pub(crate) fn restore(&self) {
+        for (row, place) in &self.0 {
+            *row.lock() = place.clone();
+        }
+    }
+}
+
+pub(crate) fn register(api: &mut Api) -> Rows {
     api.object::<Random>();
+    let rows = Rows::default();
+    let begun = rows.clone();
     api.function(
         "random(seed)",
         "Begins a row of random numbers. The same seed gives the same row on every machine.",
-        |a| Ok(Random::new(a.whole(0, i64::MIN, i64::MAX)?)),
+        move |a| {
+            let random = Random::new(a.whole(0, i64::MIN, i64::MAX)?);
+            begun.add(&random);
+            Ok(random)
+        },
     );
     api.method(
         "float()",
@@ -135,4 +185,5 @@ pub(crate) fn register(api: &mut Api) {
         "A vector of length 1, evenly over the sphere.",
         |random: Random, _| Ok(random.direction()),
     );
+    rows
 }

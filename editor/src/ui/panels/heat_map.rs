@@ -12,14 +12,14 @@ use crate::ui::theme::Palette;
 
 /// The choice in the toolbar.
 pub fn choose(editor: &mut Editor, ui: &mut Ui) {
-    let pipelines = &mut editor.workbench.pipelines;
+    let pipelines = &editor.workbench.pipelines;
     let set = pipelines.slot(pipelines.selected()).and_then(|slot| {
         let value = slot.settings.get(heat_map::PARAMETER)?.to_string();
         HeatMap::NAMES.iter().find(|(name, _)| *name == value)
     });
     let title = set.map_or("Picture", |(_, map)| map.title());
     let mut wanted = None;
-    widgets::combo(ui, "Show", title, 130.0, |ui| {
+    widgets::combo(ui, "Show", title, 110.0, |ui| {
         if ui.selectable_label(set.is_none(), "Picture").clicked() {
             wanted = Some("off");
         }
@@ -30,10 +30,11 @@ pub fn choose(editor: &mut Editor, ui: &mut Ui) {
             }
         }
     });
-    match wanted {
-        Some("off") => pipelines.unset(heat_map::PARAMETER),
-        Some(name) => pipelines.set(heat_map::PARAMETER, name.into()),
-        None => {}
+    if let Some(name) = wanted {
+        let value = (name != "off").then(|| name.into());
+        editor
+            .workbench
+            .set_pipeline_parameter(heat_map::PARAMETER, value);
     }
 }
 

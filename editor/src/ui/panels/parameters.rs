@@ -14,6 +14,16 @@ enum Change {
     Reset,
 }
 
+impl Change {
+    /// The value that was set; `None` for the default.
+    fn value(self) -> Option<SettingValue> {
+        match self {
+            Self::Set(value) => Some(value),
+            Self::Reset => None,
+        }
+    }
+}
+
 /// Draws the parameters of the selected pipeline.
 pub fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
@@ -30,17 +40,14 @@ pub fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     let scroll = ScrollArea::vertical().auto_shrink(false);
     let changed = scroll.show(ui, |ui| list(ui, &description, &fields)).inner;
     if let Some((name, change)) = changed {
-        match change {
-            Change::Set(value) => workbench.pipelines.set(&name, value),
-            Change::Reset => workbench.pipelines.unset(&name),
-        }
+        workbench.set_pipeline_parameter(&name, change.value());
     }
 }
 
 /// Draws the parameters of the scene.
 pub fn scene(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
-    let scenes = &mut workbench.scenes;
+    let scenes = &workbench.scenes;
     let Some(scene) = scenes.scene() else {
         ui.label(RichText::new("The scene is not loaded yet.").weak());
         return;
@@ -64,10 +71,7 @@ pub fn scene(editor: &mut Editor, ui: &mut Ui) {
         }
     });
     if let Some((name, change)) = changed {
-        match change {
-            Change::Set(value) => scenes.set(&name, value),
-            Change::Reset => scenes.unset(&name),
-        }
+        workbench.set_scene_parameter(&name, change.value());
     }
     let Some((entity, name, change)) = behaving else {
         return;
@@ -79,11 +83,7 @@ pub fn scene(editor: &mut Editor, ui: &mut Ui) {
         (Change::Reset, Some(field)) => field.default.clone(),
         (Change::Reset, None) => return,
     };
-    if let Some(scene) = scenes.scene_mut()
-        && let Err(error) = scene.set_behaviour(entity, &name, &value)
-    {
-        workbench.log.error(error);
-    }
+    workbench.set_behaviour_parameter(entity, &name, &value);
 }
 
 /// Behaviours whose parameters are shown; a scene may have thousands.

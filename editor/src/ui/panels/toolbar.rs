@@ -32,7 +32,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui) {
         entry.map_or_else(|| name.to_owned(), |entry| entry.title.clone())
     };
     let mut wanted = None;
-    widgets::combo(ui, "Scene", &title(&selected), 150.0, |ui| {
+    widgets::combo(ui, "Scene", &title(&selected), 130.0, |ui| {
         for entry in entries {
             let response = ui.selectable_label(entry.name == selected, &entry.title);
             if response.clicked() {
@@ -53,7 +53,7 @@ fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     let selected = workbench.pipelines.selected().to_owned();
     let mut wanted = None;
     let title = workbench.library.pipeline_title(&selected);
-    let response = widgets::combo(ui, "Pipeline", title, 210.0, |ui| {
+    let response = widgets::combo(ui, "Pipeline", title, 190.0, |ui| {
         for (index, entry) in workbench.library.pipelines.iter().enumerate() {
             let mut text = RichText::new(&entry.title);
             if entry.problem.is_some() {
@@ -90,6 +90,8 @@ fn time(editor: &mut Editor, ui: &mut Ui) {
     let label = if playing { "Pause" } else { "Play" };
     button(editor, ui, label, Action::PlayPause);
     button(editor, ui, "Step", Action::Step);
+    let in_play = editor.workbench.is_in_play();
+    ui.add_enabled_ui(in_play, |ui| button(editor, ui, "Stop", Action::Stop));
     button(editor, ui, "Rewind", Action::Rewind);
     let time = editor.workbench.clock.time();
     let label = ui.label("Speed");

@@ -52,6 +52,15 @@ impl Clock {
         self.pending += STEP;
     }
 
+    /// The same moment, with no time that is to pass.
+    pub fn held(self) -> Self {
+        Self {
+            playing: false,
+            pending: 0.0,
+            ..self
+        }
+    }
+
     /// Makes the scene see the present time again, as after it was loaded anew.
     pub fn refresh(&mut self) {
         self.unseen = true;
@@ -88,6 +97,19 @@ mod tests {
         clock.step();
         assert_eq!(clock.advance(frame), Some(2.0 * STEP));
         assert_eq!(clock.advance(frame), None);
+    }
+
+    #[test]
+    fn a_held_clock_stays_where_it_is() {
+        let mut clock = Clock {
+            playing: true,
+            ..Clock::default()
+        };
+        clock.step();
+        let mut held = clock.held();
+        assert_eq!(held.advance(Duration::from_millis(20)), Some(0.0));
+        assert_eq!(held.advance(Duration::from_millis(20)), None);
+        assert_eq!(held.time(), 0.0);
     }
 
     #[test]

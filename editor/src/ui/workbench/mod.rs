@@ -11,15 +11,19 @@ pub mod compiling;
 mod drawing;
 mod extent;
 pub mod fields;
+pub mod hand;
+pub mod history;
 pub mod library;
 pub mod log;
 pub mod pipelines;
+mod play;
 pub mod probing;
 pub mod resolution;
 pub mod scenes;
 pub mod timing;
 mod watching;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -28,15 +32,18 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
+use lightbench::script::overlays::Overlays;
 use lightbench::script::{PipelineWish, Ray, Scene, SceneEvent};
 use lightbench::world::glam::Vec3;
 
 use self::camera::CameraRig;
 use self::clock::Clock;
 use self::drawing::Canvas;
+use self::history::History;
 use self::library::Library;
 use self::log::{Level, Log};
 use self::pipelines::{News, Pipelines};
+use self::play::Before;
 use self::probing::Probing;
 use self::resolution::Resolution;
 use self::scenes::{Loaded, Scenes};
@@ -57,6 +64,16 @@ pub struct Workbench {
     last_tick: Option<Instant>,
     lost: Option<String>,
     gpu_options: GpuOptions,
+    /// What lies over the scripts of the scenes, by their names.
+    overlays: BTreeMap<String, Overlays>,
+    /// What stop gives back.
+    before: Option<Before>,
+    /// Whether a mistake that is shown came up while time ran.
+    ran_into_a_problem: bool,
+    /// What to call the next moment in the history.
+    noted_time: Option<&'static str>,
+    /// The moved camera that the history knows.
+    noted_view: Option<View>,
     /// Visited pipelines.
     pub pipelines: Pipelines,
     /// The scene.
@@ -75,6 +92,8 @@ pub struct Workbench {
     pub resolution: Resolution,
     /// What the passes did to a pixel.
     pub probing: Probing,
+    /// What was done, as lines of scripts.
+    pub history: History,
 }
 
 impl Workbench {
@@ -112,6 +131,12 @@ impl Workbench {
             clock: Clock::default(),
             timings: Timings::default(),
             probing: Probing::default(),
+            history: History::default(),
+            overlays: BTreeMap::new(),
+            before: None,
+            ran_into_a_problem: false,
+            noted_time: None,
+            noted_view: None,
         };
         this.library.refresh(&this.files, &this.wake);
         this.scenes
@@ -166,12 +191,14 @@ impl Workbench {
         let before = self.pipelines.shown().map(str::to_owned);
         self.pipelines.select(name);
         self.pipeline_shown(before.as_deref());
+        self.did("pipeline", format!("the pipeline {name}"));
     }
 
     /// Loads another scene; until it is ready the present one stays.
     pub fn select_scene(&mut self, name: &str) {
         self.scenes.select(name, None);
         self.scenes.poll();
+        self.did("scene", format!("the scene {name}"));
     }
 
     /// All mistakes that keep the newest state off the screen.
@@ -240,10 +267,18 @@ impl Workbench {
         for error in self.library.poll(&self.files, &self.wake) {
             self.log.error(error);
         }
+        let clock = self.clock;
         if let Some(step) = self.clock.advance(elapsed) {
+            if step > 0.0 {
+                self.begin_play(clock);
+            }
             self.update_scene(step);
         }
+        if let Some(what) = self.noted_time.take() {
+            self.did("time", what);
+        }
         self.follow_camera();
+        self.note_camera();
         self.take_measurements();
     }
 
@@ -301,17 +336,26 @@ impl Workbench {
     fn new_scene(&mut self, again: bool) {
         self.renderer.reset_scene();
         self.timings = Timings::default();
+        let name = self.scenes.shown().unwrap_or_default().to_owned();
         let Some(scene) = self.scenes.scene_mut() else {
             return;
         };
         self.timings.stepped(scene.system_times());
         let animated = scene.moves();
+        self.ran_into_a_problem = false;
+        if let Some(overlays) = self.overlays.get_mut(&name) {
+            overlays.lay_on(scene);
+        }
         if again {
             // Who works on a file has chosen what to look through.
             scene.take_wish();
 
             self.clock.refresh();
+            self.play_goes_on();
         } else {
+            self.before = None;
+            // Its camera is another one, which nobody moved.
+            self.noted_view = None;
             self.clock.rewind();
             self.clock.playing = animated;
             self.camera.reset();
@@ -337,7 +381,9 @@ impl Workbench {
             self.log.add(Level::Script, Some(line.place), line.text);
         }
         self.grant_wish();
+        self.on_overlays(Overlays::follow);
         if let Err(problem) = result {
+            self.ran_into_a_problem = true;
             self.log.problem(&problem);
             self.scenes.set_problems(Some(Problems(vec![problem])));
             // One behaviour may fail and the others go on.

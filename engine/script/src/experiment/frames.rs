@@ -164,6 +164,19 @@ fn look(api: &mut Api) {
         },
     );
     api.method(
+        "values(name)",
+        "What the scene's scripts plotted under a name, from the start of the scene to this frame, as \
+         an array of numbers: one for each step in which they called `plot(name, value)`, the last \
+         2000 of them. Empty where nothing was plotted under that name.",
+        |frame: Frame, arguments| {
+            let name = arguments.text(0)?;
+            let values = frame
+                .bench
+                .work(|laboratory| laboratory.values(&frame.shot, &name))?;
+            Ok(values.into_iter().map(Dynamic::from).collect::<Array>())
+        },
+    );
+    api.method(
         "first_invalid()",
         "The first pass that leaves a value that is no number, or infinite, as a map with `pass`, \
          `target`, `mip`, `layer`, `x` and `y` of the first such texel, its `value`, and how many \

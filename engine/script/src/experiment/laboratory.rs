@@ -156,6 +156,13 @@ pub trait Laboratory: Send {
     /// The bytes of a plot of curves, as SVG.
     fn plot(&self, chart: &Chart) -> Vec<u8>;
 
+    /// What the scene's scripts have plotted under a name until this frame, oldest first. Empty where
+    /// they plotted nothing.
+    ///
+    /// # Errors
+    /// As [`Laboratory::draw`].
+    fn values(&mut self, shot: &Shot, name: &str) -> Result<Vec<f64>, LaboratoryError>;
+
     /// The bytes of a picture file: of an EXR where the path ends so, else of a PNG.
     ///
     /// # Errors

@@ -164,6 +164,10 @@ impl Laboratory for Nobody {
         Vec::new()
     }
 
+    fn values(&mut self, _: &Shot, _: &str) -> Result<Vec<f64>, LaboratoryError> {
+        Self::refuse()
+    }
+
     fn encode(&self, _: &str, _: &TargetImage, _: Shown) -> Result<Vec<u8>, LaboratoryError> {
         Self::refuse()
     }

@@ -57,13 +57,13 @@ pub fn api() -> String {
 }
 
 /// Whether both are forms of one function, or the reading and the writing of one property.
-fn is_form(one: &Entry, other: &Entry) -> bool {
+pub(super) fn is_form(one: &Entry, other: &Entry) -> bool {
     (one.receiver, &one.name) == (other.receiver, &other.name)
         && (one.about == other.about || other.about.is_empty())
 }
 
 /// A form with what it belongs to before the dot, as in `entity.position`.
-fn form(entry: &Entry) -> String {
+pub(super) fn form(entry: &Entry) -> String {
     format!("`{}{}`", entry.receiver.unwrap_or_default(), entry.form())
 }
 
@@ -88,6 +88,6 @@ pub(super) fn example(entry: &Entry) -> Option<&'static str> {
     all.filter(shows).min_by_key(|call| call.len()).copied()
 }
 
-fn is_letter(letter: char) -> bool {
+pub(super) fn is_letter(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
 }

@@ -56,6 +56,7 @@ pub(crate) const CALLS: &[&str] = &[
     "let c = 2 * indices(3) - 1 + indices(3) / 4; c.sum() + max(c, 1).sum() + clamp(c, 0, 2).sum()",
     "let c = vec3(indices(3), 1, 2) * 2; c.x = 3; c.x += 1; c + vec3(1, 2, 3)",
     "let r = random(7); r.floats(2) + r.floats(2, 1, 2) + r.normals(2, 0, 1) + length(r.directions(2))",
+    "plot(\"height\", 1); values(\"height\")",
     "dot(column_of([vec3(1, 2, 3)]), vec3(3, 2, 1)) + normalize(column_of([vec3(0, 3, 4)])).z",
 ];
 

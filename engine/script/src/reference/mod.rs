@@ -9,8 +9,11 @@
 mod abilities;
 mod api;
 pub(crate) mod calls;
+mod completion;
+mod definitions;
 mod experiments;
 mod functions;
+mod lookup;
 mod parts;
 mod pipelines;
 mod probe;
@@ -20,6 +23,9 @@ mod tests;
 
 pub use abilities::abilities_page as abilities;
 pub use api::api;
+pub use completion::{Candidate, Completions, complete};
+pub use definitions::{Definitions, definitions};
 pub use experiments::experiments;
+pub use lookup::{Help, help, help_at};
 pub use pipelines::pipelines;
 pub use shaders::shaders;

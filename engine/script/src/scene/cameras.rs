@@ -135,7 +135,7 @@ fn frame(data: &mut Data, entity: Entity, extent: Extent) -> Result<(), Mistake>
 }
 
 /// A camera for a scene that made none: all meshes, seen from the front and above.
-pub(super) fn add_default(data: &mut Data) -> Result<(), Mistake> {
+pub(super) fn add_default(data: &mut Data) -> Result<Entity, Mistake> {
     let entity = data.spawn("camera")?;
     let eye = Vec3::new(0.6, 0.5, 1.0);
     start(
@@ -144,8 +144,8 @@ pub(super) fn add_default(data: &mut Data) -> Result<(), Mistake> {
         Transform::looking_at(eye, Vec3::ZERO, Vec3::Y),
     )?;
     data.insert(entity, Camera::default())?;
-    match extent_of_all(&data.world, &data.assets) {
-        Some(extent) => frame(data, entity, extent),
-        None => Ok(()),
+    if let Some(extent) = extent_of_all(&data.world, &data.assets) {
+        frame(data, entity, extent)?;
     }
+    Ok(entity)
 }

@@ -13,6 +13,7 @@ use super::behaviours::{AtWork, Message, Starting};
 use super::input::Input;
 use super::materials::Material;
 use super::models::Models;
+use super::plots::Plots;
 use super::recipes::Recipes;
 use super::state::{KeptBehaviour, State};
 use super::wishes::PipelineWish;
@@ -62,10 +63,12 @@ pub(super) struct Data {
     /// The materials that scripts hold, so that one that is asked for again is the same.
     pub(super) materials: HashMap<MaterialId, Material>,
     /// The entities in the order in which they were made.
-    made: Vec<Entity>,
+    pub(super) made: Vec<Entity>,
     /// Names that were looked up or given. The world alone would search all names each time.
-    names: HashMap<String, Entity>,
-    triangles: usize,
+    pub(super) names: HashMap<String, Entity>,
+    pub(super) triangles: usize,
+    /// What scripts have plotted.
+    pub(super) plots: Plots,
 }
 
 /// The data, shared by all functions of one scene's engine.
@@ -107,6 +110,7 @@ impl Stage {
             made: Vec::new(),
             names: HashMap::new(),
             triangles: 0,
+            plots: Plots::default(),
         })))
     }
 

@@ -82,7 +82,7 @@ impl Event {
 }
 
 /// What calls the functions that a script has.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Handlers([Option<AST>; 5]);
 
 impl Handlers {

@@ -13,8 +13,8 @@ use super::script::OwnScript;
 use super::state::{KeptState, State};
 use super::{
     Read, SCENES, Scene, behaviours, bounds, cameras, columns, curves, entities, fields, input,
-    lights, materials, models, motion, picking, saved, selection, shapes, state, tags, textures,
-    wishes,
+    lights, materials, models, motion, picking, plots, saved, selection, shapes, state, tags,
+    textures, wishes,
 };
 use crate::host::{Extras, Host, find};
 use crate::limits::Limits;
@@ -201,6 +201,7 @@ pub(super) fn host(
                 tags::register(api, &made);
                 selection::register(api, &made);
                 columns::register(api, &made);
+                plots::register(api, &made);
                 stage = Some(made);
             },
             globals: vec![("state", Dynamic::from(state.clone()))],

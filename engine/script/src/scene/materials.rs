@@ -16,7 +16,7 @@ pub(super) struct Material {
     pub(super) id: MaterialId,
     /// Whether the script has chosen a colour. A textured material without one shows the texture's
     /// colours as they are.
-    colored: Arc<AtomicBool>,
+    pub(super) colored: Arc<AtomicBool>,
     /// Whether it has been given a power apart from the call that chose its reflection model.
     pub(super) has_power: Arc<AtomicBool>,
 }

@@ -4,6 +4,7 @@ mod behaviours;
 mod bounds;
 mod cameras;
 mod columns;
+pub mod console;
 mod curves;
 mod data;
 mod entities;
@@ -17,13 +18,16 @@ mod load;
 mod materials;
 mod models;
 mod motion;
+pub mod overlays;
 mod picking;
+pub mod plots;
 mod recipes;
 mod reflection;
 mod saved;
 mod script;
 mod selection;
 mod shapes;
+mod snapshot;
 mod state;
 mod tables;
 mod tags;
@@ -39,6 +43,7 @@ use lightbench_assets::{Assets, Progress};
 use lightbench_render::{Place, Problem, Problems};
 use lightbench_world::systems::{FrameSystems, update_computed};
 use lightbench_world::{Behaviour, Camera, Entity, RigidAnimation, SystemTime, Velocity, World};
+use rhai::Scope;
 
 use crate::host::Host;
 use crate::log::LogLine;
@@ -56,7 +61,9 @@ pub use list::{SceneEntry, list_scenes};
 pub use load::{load_scene, load_scene_again, load_scene_within, scene_names};
 pub use picking::Ray;
 pub use saved::EXTENSION as SCENE_EXTENSION;
+pub use snapshot::SceneSnapshot;
 pub use state::KeptState;
+pub(crate) use values::expected as field_takes;
 pub use wishes::PipelineWish;
 
 /// The folder of the scene files.
@@ -82,6 +89,10 @@ pub struct Scene {
     systems: FrameSystems,
     /// What the script took in the last step.
     script_time: Option<SystemTime>,
+    /// Variables that lines of a console have declared.
+    console: Scope<'static>,
+    /// The camera that was made because the script made none.
+    pub(crate) default_camera: Option<Entity>,
 }
 
 impl std::fmt::Debug for Scene {
@@ -109,6 +120,8 @@ impl Scene {
             behaviours: Behaviours::new(at_work),
             systems: FrameSystems::default(),
             script_time: None,
+            console: Scope::new(),
+            default_camera: None,
         }
     }
 
@@ -116,8 +129,11 @@ impl Scene {
     fn finish(&mut self) -> Result<(), Problems> {
         let mut data = self.stage.lock();
         let has_camera = !data.world.columns::<Camera>().is_empty();
-        if !has_camera && let Err(mistake) = cameras::add_default(&mut data) {
-            return Err(Problem::new(Place::file(self.path.as_str()), mistake.message).into());
+        if !has_camera {
+            let added = cameras::add_default(&mut data);
+            self.default_camera = Some(added.map_err(|mistake| {
+                Problem::new(Place::file(self.path.as_str()), mistake.message)
+            })?);
         }
         let problems = undeclared("scene", &self.path, &data.parameters, &data.settings);
         if !problems.is_empty() {
@@ -148,6 +164,7 @@ impl Scene {
     /// changed stays, and all others and the systems go on. Where several went wrong, the next steps
     /// tell of the others.
     pub fn update(&mut self, time: f64, dt: f64) -> Result<(), Problem> {
+        self.stage.lock().plots.set_time(time);
         let (took, result) = SystemTime::of("script", || {
             self.swap();
             let result = self.run_scripts(time, dt);
@@ -335,6 +352,8 @@ const _: fn() = || {
     assert_send::<Scene>();
 };
 
+#[cfg(test)]
+mod console_tests;
 #[cfg(test)]
 mod reach_tests;
 #[cfg(test)]

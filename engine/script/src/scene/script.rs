@@ -11,7 +11,7 @@ use crate::host::Host;
 pub(super) struct OwnScript {
     handlers: Handlers,
     /// Whether one of them failed; the script is not called again.
-    stopped: bool,
+    pub(super) stopped: bool,
 }
 
 impl OwnScript {

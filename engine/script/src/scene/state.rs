@@ -67,6 +67,16 @@ impl State {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// What it holds, apart from the handle that scripts have.
+    pub(super) fn contents(&self) -> Map {
+        self.lock().map.clone()
+    }
+
+    /// Puts other contents behind the handle.
+    pub(super) fn replace(&self, contents: Map) {
+        self.lock().map = contents;
+    }
+
     fn get(&self, name: &str) -> Result<Dynamic, Mistake> {
         let entries = self.lock();
         entries.map.get(name).cloned().ok_or_else(|| {

@@ -217,7 +217,7 @@ pub(super) fn refused(field: &Field, value: &Dynamic, a: &Arguments) -> Mistake 
 }
 
 /// What a field takes, in words.
-pub(super) fn expected(info: &FieldInfo) -> String {
+pub(crate) fn expected(info: &FieldInfo) -> String {
     let what = match info.value_type {
         ValueType::Bool => "`true` or `false`",
         ValueType::Int => "a whole number",

@@ -129,6 +129,13 @@ fn parts_of_targets_reach_the_laboratory() {
 }
 
 #[test]
+fn what_a_scene_plotted_is_an_array_of_numbers() {
+    let lines =
+        printed("let frame = draw(\"s\", \"p\", #{ frame: 3 }); print(frame.values(\"height\"));");
+    assert_eq!(lines, ["[1.0, 2.5]"]);
+}
+
+#[test]
 fn pixels_and_invalid_values_are_maps() {
     let lines = printed(
         r#"

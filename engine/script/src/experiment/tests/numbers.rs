@@ -156,6 +156,11 @@ impl Laboratory for Numbers {
         format!("{chart:?}").into_bytes()
     }
 
+    fn values(&mut self, shot: &Shot, name: &str) -> Result<Vec<f64>, LaboratoryError> {
+        self.note(format!("values {name} {}", shot.frame));
+        Ok(vec![1.0, 2.5])
+    }
+
     fn first_invalid(&mut self, shot: &Shot) -> Result<Option<FirstInvalid>, LaboratoryError> {
         let place = Invalid {
             pass: 1,

@@ -6,6 +6,7 @@
 //! `on_message` when something happens. All of them see the entity as `me`.
 
 mod functions;
+mod kept;
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use lightbench_render::Problem;
 use lightbench_render::problem::Problems;
 use lightbench_world::{Behaviour, Entity, Name, Parameters, Value, World};
-use rhai::{Dynamic, Module, Scope};
+use rhai::{Dynamic, Module, Scope, Shared};
 
 use super::data::{Data, Stage};
 use super::handlers::{Event, Handlers, OF_BEHAVIOUR};
@@ -23,6 +24,7 @@ use crate::host::{Host, Variables};
 use crate::parameters::{SceneParameter, undeclared};
 use crate::settings::{SettingValue, Settings};
 pub(super) use functions::register;
+pub(super) use kept::KeptBehaviours;
 
 /// The folder of the behaviours.
 pub const BEHAVIOURS: &str = "scripts/behaviours";
@@ -80,6 +82,7 @@ impl AtWork {
 }
 
 /// A behaviour of one entity.
+#[derive(Clone)]
 struct Instance {
     entity: Entity,
     /// What the component said when it was started.
@@ -88,6 +91,8 @@ struct Instance {
     state: State,
     handlers: Handlers,
     slot: usize,
+    /// Its functions, as they are registered under the name of the slot.
+    module: Option<Shared<Module>>,
     /// After an error it is not called again.
     stopped: bool,
     /// Whether its entity still has it; for [`Behaviours::start_and_end`].
@@ -255,6 +260,7 @@ impl Behaviours {
                 state,
                 handlers: Handlers::default(),
                 slot,
+                module: None,
                 stopped: false,
                 goes_on: true,
             };
@@ -279,7 +285,7 @@ impl Behaviours {
         let path = &instance.component.script;
         let settings = settings(&instance.component.parameters);
         let ast = host.load(path)?;
-        let module = format!("behaviour_{}", instance.slot);
+        let module = module_of(instance.slot);
         instance.handlers = Handlers::find(host, path, &module, &OF_BEHAVIOUR)?;
         stage.lock().starting = Some(Starting {
             settings: settings.clone(),
@@ -297,7 +303,9 @@ impl Behaviours {
             return Err(Problems(problems));
         }
         instance.parameters = starting.parameters;
-        host.engine.register_static_module(module, made.into());
+        let made: Shared<Module> = made.into();
+        instance.module = Some(made.clone());
+        host.engine.register_static_module(module, made);
         Ok(())
     }
 
@@ -368,6 +376,11 @@ impl Behaviours {
         data.insert(entity, component)
             .map_err(|mistake| mistake.message)
     }
+}
+
+/// The name of the module of a slot.
+fn module_of(slot: usize) -> String {
+    format!("behaviour_{slot}")
 }
 
 /// The component's values as settings.

@@ -1,0 +1,137 @@
+//! What the editor keeps over restarts, in a file of the user's settings.
+
+use std::env;
+use std::path::PathBuf;
+
+use lightbench::assets::files::write_atomic;
+use serde_json::{Map, Value};
+
+/// Lines of the console that are kept.
+const MOST_LINES: usize = 200;
+
+/// What is kept, and where.
+#[derive(Debug, Default)]
+pub struct Kept {
+    path: Option<PathBuf>,
+    /// Lines of the console, oldest first.
+    pub console: Vec<String>,
+    /// What other versions of the program have written.
+    others: Map<String, Value>,
+}
+
+/// The file of the settings, by the habits of the system; `None` where it has no place for such.
+pub fn default_path() -> Option<PathBuf> {
+    let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
+    let folder = if cfg!(windows) {
+        PathBuf::from(variable("APPDATA")?)
+    } else if cfg!(target_os = "macos") {
+        PathBuf::from(variable("HOME")?).join("Library/Application Support")
+    } else {
+        match variable("XDG_CONFIG_HOME") {
+            Some(folder) => PathBuf::from(folder),
+            None => PathBuf::from(variable("HOME")?).join(".config"),
+        }
+    };
+    Some(folder.join("lightbench").join("editor.json"))
+}
+
+impl Kept {
+    /// Reads the file. One that is not there, or that is damaged, gives nothing.
+    pub fn read(path: Option<PathBuf>) -> Self {
+        let text = path
+            .as_ref()
+            .and_then(|path| std::fs::read_to_string(path).ok());
+        let value = text.and_then(|text| serde_json::from_str(&text).ok());
+        let mut others = match value {
+            Some(Value::Object(map)) => map,
+            _ => Map::new(),
+        };
+        let console = match others.remove("console") {
+            Some(Value::Array(lines)) => lines
+                .into_iter()
+                .filter_map(|line| line.as_str().map(str::to_owned))
+                .collect(),
+            _ => Vec::new(),
+        };
+        Self {
+            path,
+            console,
+            others,
+        }
+    }
+
+    /// Keeps a line of the console.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The line is there until the program ends.
+    pub fn remember(&mut self, line: &str) -> Result<(), String> {
+        // The same line again moves to the end.
+        self.console.retain(|known| known != line);
+        self.console.push(line.to_owned());
+        if self.console.len() > MOST_LINES {
+            self.console.remove(0);
+        }
+        self.write()
+    }
+
+    fn write(&self) -> Result<(), String> {
+        let Some(path) = &self.path else {
+            return Ok(());
+        };
+        let mut all = self.others.clone();
+        all.insert("console".to_owned(), self.console.clone().into());
+        let text = format!("{:#}\n", Value::Object(all));
+        let failed = |error: &dyn std::fmt::Display| {
+            format!(
+                "The editor's settings are not kept in {}: {error}",
+                path.display()
+            )
+        };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| failed(&error))?;
+        }
+        write_atomic(path, text.as_bytes()).map_err(|error| failed(&error))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn lines_are_kept_in_a_file_with_what_others_wrote_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new/editor.json");
+        let mut kept = Kept::read(Some(path.clone()));
+        for line in ["a", "b", "a"] {
+            kept.remember(line).unwrap();
+        }
+        assert_eq!(Kept::read(Some(path.clone())).console, ["b", "a"]);
+        std::fs::write(&path, "{\"console\": [\"x\", 3], \"theme\": \"dark\"}").unwrap();
+        let mut kept = Kept::read(Some(path.clone()));
+        assert_eq!(kept.console, ["x"]);
+        for i in 0..MOST_LINES {
+            kept.remember(&i.to_string()).unwrap();
+        }
+        assert_eq!(kept.console.len(), MOST_LINES);
+        assert_eq!(kept.console[0], "0");
+        assert!(
+            std::fs::read_to_string(&path)
+                .unwrap()
+                .contains("\"theme\": \"dark\"")
+        );
+        for damaged in ["", "[]", "{", "{\"console\": 4}"] {
+            std::fs::write(&path, damaged).unwrap();
+            assert!(
+                Kept::read(Some(path.clone())).console.is_empty(),
+                "{damaged}"
+            );
+        }
+        // A folder in the file's place.
+        let mut kept = Kept::read(Some(folder.path().to_owned()));
+        assert!(kept.remember("a").unwrap_err().contains("not kept in"));
+        assert_eq!(kept.console, ["a"]);
+        Kept::read(None).remember("a").unwrap();
+    }
+}

@@ -1,0 +1,337 @@
+//! Overlays: what a person changed by hand on the entities that a script made.
+//!
+//! An overlay is a value for one field of the entity of one name. It lies over whatever the script
+//! says: it is laid on again after the script was loaded anew, and after each step of a script that
+//! writes the field too. It knows the script's own value, to give it back. One whose entity or
+//! component is not there waits until it comes.
+
+mod lines;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use lightbench_world::reflect::{FieldInfo, Role};
+use lightbench_world::{ComponentKind, Entity, Name, Tick, Value, ValueType};
+
+use super::Scene;
+use super::fields;
+use super::tables::{self, Field};
+pub use lines::{degrees_of, line, rotation_of};
+pub(crate) use lines::{spell_point, spell_single};
+
+/// One value that a person has set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlay {
+    /// What was asked for.
+    pub value: Value,
+    /// What the field held, or was given by the script since; `None` while the overlay waits.
+    pub script: Option<Value>,
+    /// Whether something else has written the field after the overlay was laid on: the scene's
+    /// script, a behaviour, or a component that moves the entity.
+    pub contested: bool,
+    /// What the field holds. It differs from `value` where the scene does not take that whole.
+    in_force: Option<Value>,
+    entity: Entity,
+}
+
+impl Overlay {
+    /// Whether there is no such field to lie on.
+    #[must_use]
+    pub fn is_waiting(&self) -> bool {
+        self.script.is_none()
+    }
+}
+
+/// What of a scene was changed by hand: by the entity's name and the field, as in `light.range`.
+#[derive(Clone, Debug, Default)]
+pub struct Overlays {
+    all: BTreeMap<(String, String), Overlay>,
+    /// Until when names were looked at for those that wait.
+    looked: Option<Tick>,
+}
+
+/// The name of a field in scripts, as in `mesh_renderer.visible`; `None` for components that scripts
+/// and people are not offered.
+#[must_use]
+pub fn field_path(kind: ComponentKind, info: &FieldInfo) -> Option<&'static str> {
+    let component = tables::components().iter().find(|c| c.kind == kind)?;
+    let field = tables::field_of(component, info.name).ok()?;
+    Some(&field.path)
+}
+
+/// Whether a field can be changed by hand.
+///
+/// # Errors
+/// A sentence that says why not.
+pub fn editable(kind: ComponentKind, info: &FieldInfo) -> Result<(), &'static str> {
+    if kind.info().role == Role::Computed {
+        return Err("The engine computes it.");
+    }
+    match info.value_type {
+        _ if kind == ComponentKind::Name => {
+            Err("What is changed by hand is kept by the entity's name, so the name stays.")
+        }
+        ValueType::Bool
+        | ValueType::Int
+        | ValueType::Float
+        | ValueType::Vec2
+        | ValueType::Vec3
+        | ValueType::Vec4
+        | ValueType::Quat
+        | ValueType::Text
+        | ValueType::Choice(_) => Ok(()),
+        ValueType::Mesh | ValueType::Material | ValueType::Entity => {
+            Err("The scene's script makes it anew with each load: choose another one there.")
+        }
+        ValueType::Mat3 | ValueType::Mat4 | ValueType::List(_) | ValueType::Map => {
+            Err("It has too many parts to be changed here: change it in the scene's script.")
+        }
+    }
+}
+
+fn is_finite(value: &Value) -> bool {
+    match value {
+        Value::Float(number) => number.is_finite(),
+        Value::Vec2(pair) => pair.is_finite(),
+        Value::Vec3(vector) => vector.is_finite(),
+        Value::Vec4(four) => four.is_finite(),
+        Value::Quat(rotation) => rotation.is_finite(),
+        _ => true,
+    }
+}
+
+impl Overlays {
+    /// Nothing was changed.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Whether nothing was changed.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// All with the entity's name and the field's path, by these.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str, &Overlay)> {
+        self.all
+            .iter()
+            .map(|((entity, field), overlay)| (entity.as_str(), field.as_str(), overlay))
+    }
+
+    /// The overlay of a field.
+    #[must_use]
+    pub fn get(&self, entity: &str, field: &str) -> Option<&Overlay> {
+        self.all.get(&(entity.to_owned(), field.to_owned()))
+    }
+
+    /// Those whose entity or component is not there.
+    pub fn waiting(&self) -> impl Iterator<Item = (&str, &str, &Overlay)> {
+        self.iter().filter(|(_, _, overlay)| overlay.is_waiting())
+    }
+
+    /// Changes a field by hand.
+    ///
+    /// # Errors
+    /// A sentence, where the entity can't be found by its name, or the field does not take the value.
+    pub fn set(
+        &mut self,
+        scene: &mut Scene,
+        entity: Entity,
+        path: &str,
+        value: Value,
+    ) -> Result<(), String> {
+        let field = tables::field(path).map_err(|mistake| mistake.message)?;
+        editable(field.kind, field.info).map_err(str::to_owned)?;
+        let name = scene.keeps_by_name(entity)?;
+        let before = scene
+            .world
+            .field_at(entity, field.kind, field.index)
+            .ok_or_else(|| format!("`{name}` has no `{}`", field.component))?;
+        if !is_finite(&value) {
+            return Err("the number must be finite".to_owned());
+        }
+        scene.write_by_hand(entity, field, &value)?;
+        let overlay = Overlay {
+            in_force: scene.world.field_at(entity, field.kind, field.index),
+            value,
+            script: Some(before),
+            contested: false,
+            entity,
+        };
+        self.all
+            .entry((name, path.to_owned()))
+            .and_modify(|old| {
+                let script = old.script.take();
+                let contested = old.contested;
+                *old = overlay.clone();
+                if script.is_some() {
+                    (old.script, old.contested) = (script, contested);
+                }
+            })
+            .or_insert(overlay);
+        scene.refresh();
+        Ok(())
+    }
+
+    /// Gives one field back to the script. Returns whether it had been changed.
+    pub fn reset(&mut self, scene: &mut Scene, entity: &str, field: &str) -> bool {
+        let key = (entity.to_owned(), field.to_owned());
+        let Some(overlay) = self.all.remove(&key) else {
+            return false;
+        };
+        overlay.take_off(scene, field);
+        scene.refresh();
+        true
+    }
+
+    /// Gives all fields of the entity of that name back to the script.
+    pub fn reset_entity(&mut self, scene: &mut Scene, entity: &str) {
+        let fields = self.iter().filter(|(name, ..)| *name == entity);
+        let fields: Vec<String> = fields.map(|(_, field, _)| field.to_owned()).collect();
+        for field in fields {
+            self.reset(scene, entity, &field);
+        }
+    }
+
+    /// Gives everything back to the script.
+    pub fn reset_all(&mut self, scene: &mut Scene) {
+        for ((_, field), overlay) in std::mem::take(&mut self.all) {
+            overlay.take_off(scene, &field);
+        }
+        scene.refresh();
+    }
+
+    /// Lays all on a scene that was loaded anew.
+    pub fn lay_on(&mut self, scene: &mut Scene) {
+        for overlay in self.all.values_mut() {
+            overlay.script = None;
+            overlay.in_force = None;
+            overlay.contested = false;
+            overlay.entity = Entity::NONE;
+        }
+        self.looked = None;
+        self.follow(scene);
+    }
+
+    /// Lays them on again after a step, where something wrote a field too or an entity has come or
+    /// gone.
+    pub fn follow(&mut self, scene: &mut Scene) {
+        if self.all.is_empty() {
+            return;
+        }
+        let names = scene.world.columns::<Name>();
+        let named = self
+            .looked
+            .is_none_or(|looked| names.any_changed_since(looked));
+        self.looked = Some(scene.world.observe());
+        let mut written = false;
+        for ((name, path), overlay) in &mut self.all {
+            if let Ok(field) = tables::field(path) {
+                written |= overlay.follow(scene, name, field, named);
+            }
+        }
+        if written {
+            scene.refresh();
+        }
+    }
+
+    /// Goes on with a scene that was taken back to an earlier moment, at which `before` lay on it.
+    pub fn taken_back(&mut self, scene: &mut Scene, before: &Self) {
+        for (_, path, overlay) in before.iter() {
+            overlay.clone().take_off(scene, path);
+        }
+        self.lay_on(scene);
+    }
+}
+
+impl Overlay {
+    /// Returns whether the scene was written.
+    fn follow(&mut self, scene: &mut Scene, name: &str, field: &Field, named: bool) -> bool {
+        let is_called = |scene: &Scene, entity| {
+            let names = scene.world.columns::<Name>();
+            names.row_of(entity).map(|row| &names.text()[row]) == Some(&name.to_owned())
+        };
+        let is_there = is_called(scene, self.entity);
+        let known = is_there && self.script.is_some();
+        if !is_there {
+            self.script = None;
+            // A name that was looked for in vain is looked for again when names change.
+            let found = named.then(|| scene.world.find(name)).flatten();
+            let Some(found) = found else {
+                self.entity = Entity::NONE;
+                return false;
+            };
+            self.entity = found;
+        }
+        let Some(now) = scene.world.field_at(self.entity, field.kind, field.index) else {
+            self.script = None;
+            return false;
+        };
+        if known && self.in_force.as_ref() == Some(&now) {
+            return false;
+        }
+        self.contested |= known;
+        self.script = Some(now);
+        let value = self.value.clone();
+        // A value that was taken once is out of range now only where the field itself has changed.
+        let written = scene.write_by_hand(self.entity, field, &value).is_ok();
+        self.in_force = scene.world.field_at(self.entity, field.kind, field.index);
+        written
+    }
+
+    fn take_off(self, scene: &mut Scene, path: &str) {
+        let (Some(script), Ok(field)) = (self.script, tables::field(path)) else {
+            return;
+        };
+        // What has gone needs nothing back.
+        let _ = scene.write_by_hand(self.entity, field, &script);
+    }
+}
+
+impl Scene {
+    /// The name by which what a person changes on an entity is kept.
+    ///
+    /// # Errors
+    /// A sentence, where the entity can't be found by a name.
+    pub fn keeps_by_name(&self, entity: Entity) -> Result<String, String> {
+        let name: Option<Name> = self.world.get(entity);
+        let Some(name) = name.filter(|name| !name.text.is_empty()) else {
+            return Err(
+                "what is changed by hand is kept by name, and this entity has none: give it one in \
+                 the scene's script, as in `spawn(\"lamp\")`"
+                    .to_owned(),
+            );
+        };
+        if self.default_camera == Some(entity) {
+            Err(
+                "the scene's script makes no camera, so this one was made for it: make one there to \
+                 change it, as in `camera(\"eye\")`"
+                    .to_owned(),
+            )
+        } else if self.world.find(&name.text) == Some(entity) {
+            Ok(name.text)
+        } else {
+            Err(format!(
+                "what is changed by hand is kept by name, and another entity is called `{}` too: \
+                 give each its own name in the scene's script",
+                name.text
+            ))
+        }
+    }
+
+    /// Writes a field as `set` of a script does.
+    fn write_by_hand(
+        &mut self,
+        entity: Entity,
+        field: &Field,
+        value: &Value,
+    ) -> Result<(), String> {
+        self.swap();
+        let written = fields::set(&mut self.stage.lock(), entity, field, value);
+        self.swap();
+        written.map_err(|mistake| mistake.message)
+    }
+}
