@@ -12,6 +12,7 @@ pub mod grid;
 pub mod lists;
 pub mod panes;
 pub mod pixels;
+pub mod tracing;
 pub mod workshop;
 
 pub use workshop::Workshop;

@@ -1,8 +1,8 @@
 //! All pipelines give the same picture of opaque objects.
 #![allow(clippy::unwrap_used)]
 
-use lightbench::assets::files::Files;
 use lightbench::assets::ReflectionModels;
+use lightbench::assets::files::Files;
 use lightbench::lab::{HdrImage, diff};
 use lightbench::render::TargetImage;
 use lightbench::script::{list_pipelines, load_pipeline};

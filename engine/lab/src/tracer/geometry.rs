@@ -1,0 +1,255 @@
+//! All triangles of a scene in the world's space, and the tree over them.
+
+use std::time::Duration;
+
+use glam::{DVec3, DVec4, Vec3A};
+use lightbench_render::gpu_data::VertexAttributes;
+use obvhs::BvhBuildParams;
+use obvhs::cwbvh::CwBvh;
+use obvhs::cwbvh::builder::build_cwbvh_from_tris;
+use obvhs::ray::{Ray, RayHit};
+use obvhs::rt_triangle::RtTriangle;
+use obvhs::triangle::Triangle;
+
+use crate::reference::transform::Rows;
+
+/// What a ray must know of a triangle that it meets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Traits(u8);
+
+impl Traits {
+    /// The viewer sees its front alone.
+    pub const ONE_SIDED: Self = Self(1);
+    /// Its texture's alpha leaves holes.
+    pub const HOLES: Self = Self(2);
+    /// It lets a share of the light through.
+    pub const TRANSPARENT: Self = Self(4);
+    /// It shines.
+    pub const EMISSIVE: Self = Self(8);
+
+    /// Those of both.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether it has one of them.
+    pub fn any(self, others: Self) -> bool {
+        self.0 & others.0 != 0
+    }
+}
+
+/// An object as its triangles refer to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Instance {
+    /// From its space to the world's.
+    pub rows: Rows,
+    /// Its row in the table of materials.
+    pub material: u32,
+}
+
+/// Where the corners of a triangle find what is not their position.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners {
+    /// Its object.
+    pub instance: u32,
+    /// Rows in the table of attributes.
+    pub vertices: [u32; 3],
+}
+
+/// A triangle before it has its place in the tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Loose {
+    /// World positions, counter-clockwise as seen from the front.
+    pub positions: [Vec3A; 3],
+    /// The rest of its corners.
+    pub corners: Corners,
+    /// What rays must know of it.
+    pub traits: Traits,
+}
+
+/// All triangles, in the order of the tree.
+pub struct Geometry {
+    bvh: CwBvh,
+    triangles: Vec<RtTriangle>,
+    traits: Vec<Traits>,
+    corners: Vec<Corners>,
+    /// The objects.
+    pub instances: Vec<Instance>,
+    attributes: Vec<VertexAttributes>,
+}
+
+/// What a triangle's corners have at a point of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Interpolated {
+    /// World, not unit length.
+    pub normal: DVec3,
+    /// World, not unit length; w is the bitangent's handedness.
+    pub tangent: DVec4,
+}
+
+impl Geometry {
+    /// Builds the tree.
+    pub fn new(
+        loose: &[Loose],
+        instances: Vec<Instance>,
+        attributes: Vec<VertexAttributes>,
+    ) -> Self {
+        let bvh = build(loose);
+        let order = || {
+            bvh.primitive_indices
+                .iter()
+                .map(|&index| &loose[index as usize])
+        };
+        let triangles = order().map(|triangle| {
+            let [a, b, c] = triangle.positions;
+            RtTriangle::new(a, b, c)
+        });
+        Self {
+            triangles: triangles.collect(),
+            traits: order().map(|triangle| triangle.traits).collect(),
+            corners: order().map(|triangle| triangle.corners).collect(),
+            bvh,
+            instances,
+            attributes,
+        }
+    }
+
+    /// How many triangles there are.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// What rays must know of a triangle.
+    pub fn traits(&self, triangle: u32) -> Traits {
+        self.traits[triangle as usize]
+    }
+
+    /// The object of a triangle.
+    pub fn instance(&self, triangle: u32) -> &Instance {
+        &self.instances[self.corners[triangle as usize].instance as usize]
+    }
+
+    /// A corner of a triangle, and the edges from there to the other two.
+    pub fn edges(&self, triangle: u32) -> [DVec3; 3] {
+        let triangle = &self.triangles[triangle as usize];
+        [triangle.v0, -triangle.e1, triangle.e2].map(|v| v.as_dvec3())
+    }
+
+    /// Texture coordinates of the three corners.
+    pub fn uvs(&self, triangle: u32) -> [glam::DVec2; 3] {
+        self.vertices(triangle).map(|vertex| {
+            let [u, v] = vertex.uv;
+            glam::DVec2::new(u.into(), v.into())
+        })
+    }
+
+    /// Normal and tangent at a point of a triangle, given by the weights of the corners.
+    pub fn interpolate(&self, triangle: u32, weights: DVec3) -> Interpolated {
+        let vertices = self.vertices(triangle);
+        let weights = weights.to_array();
+        let mut normal = DVec3::ZERO;
+        let mut tangent = DVec4::ZERO;
+        for (vertex, weight) in vertices.into_iter().zip(weights) {
+            normal += DVec3::from_array(vertex.normal.map(f64::from)) * weight;
+            tangent += DVec4::from_array(vertex.tangent.map(f64::from)) * weight;
+        }
+        let rows = &self.instance(triangle).rows;
+        Interpolated {
+            normal: rows.normal(normal),
+            tangent: rows.tangent(tangent.truncate()).extend(tangent.w),
+        }
+    }
+
+    fn vertices(&self, triangle: u32) -> [&VertexAttributes; 3] {
+        let corners = &self.corners[triangle as usize];
+        corners
+            .vertices
+            .map(|vertex| &self.attributes[vertex as usize])
+    }
+
+    /// The weights of the corners where a ray meets a triangle.
+    pub fn weights(&self, triangle: u32, ray: &Ray) -> DVec3 {
+        let found = self.triangles[triangle as usize]
+            .compute_barycentric(ray)
+            .as_dvec2();
+        DVec3::new(1.0 - found.x - found.y, found.x, found.y)
+    }
+
+    /// Whether a ray comes from the front of a triangle.
+    pub fn from_front(&self, triangle: u32, ray: &Ray) -> bool {
+        // The tree's normals point inwards.
+        self.triangles[triangle as usize].ng.dot(ray.direction) > 0.0
+    }
+
+    /// The nearest triangle that a ray meets, of those that `counts` accepts; it is only asked about
+    /// triangles with one of some traits. With the ray's parameter there.
+    pub fn nearest(
+        &self,
+        ray: Ray,
+        doubtful: Traits,
+        counts: impl Fn(&Ray, u32) -> bool,
+    ) -> Option<(u32, f32)> {
+        let mut hit = RayHit::none();
+        let found = self.bvh.ray_traverse(ray, &mut hit, |ray, index| {
+            let t = self.triangles[index].intersect(ray);
+            let met = t < ray.tmax;
+            if met && self.traits[index].any(doubtful) && !counts(ray, index as u32) {
+                return f32::INFINITY;
+            }
+            t
+        });
+        found.then_some((hit.primitive_id, hit.t))
+    }
+
+    /// Whether a ray meets nothing, but for triangles with one of some traits that `counts` does not
+    /// accept.
+    pub fn is_clear(
+        &self,
+        ray: Ray,
+        doubtful: Traits,
+        mut counts: impl FnMut(&Ray, u32) -> bool,
+    ) -> bool {
+        self.bvh.ray_traverse_miss(ray, |ray, index| {
+            let t = self.triangles[index].intersect(ray);
+            let met = t < ray.tmax;
+            if met && self.traits[index].any(doubtful) && !counts(ray, index as u32) {
+                return f32::INFINITY;
+            }
+            t
+        })
+    }
+
+    /// Whether a ray meets anything, by its nearest triangle: the tree's own traversal.
+    pub fn bare_nearest(&self, ray: Ray) -> bool {
+        let mut hit = RayHit::none();
+        self.bvh.ray_traverse(ray, &mut hit, |ray, index| {
+            self.triangles[index].intersect(ray)
+        })
+    }
+
+    /// Whether a ray meets nothing, by the tree's own traversal.
+    pub fn bare_clear(&self, ray: Ray) -> bool {
+        self.bvh
+            .ray_traverse_miss(ray, |ray, index| self.triangles[index].intersect(ray))
+    }
+}
+
+/// The tree. Its triangles are not split, so that a ray meets each of them once.
+fn build(loose: &[Loose]) -> CwBvh {
+    if loose.is_empty() {
+        return CwBvh::default();
+    }
+    let triangles: Vec<Triangle> = loose
+        .iter()
+        .map(|triangle| {
+            let [v0, v1, v2] = triangle.positions;
+            Triangle { v0, v1, v2 }
+        })
+        .collect();
+    let parameters = BvhBuildParams {
+        pre_split: false,
+        ..BvhBuildParams::slow_build()
+    };
+    build_cwbvh_from_tris(&triangles, parameters, &mut Duration::default())
+}
