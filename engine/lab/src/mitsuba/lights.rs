@@ -3,6 +3,7 @@
 use glam::DVec3;
 use lightbench_world::{Light, LightKind, Name, World, WorldMatrix};
 
+use super::xml::short;
 use super::{Export, is_black};
 
 impl Export<'_> {
@@ -78,7 +79,7 @@ impl Export<'_> {
 
     fn directional_light(&mut self, forward: DVec3, irradiance: DVec3) {
         self.xml.open("emitter", &[("type", "directional")]);
-        let [x, y, z] = forward.to_array().map(|value| value.to_string());
+        let [x, y, z] = forward.to_array().map(short);
         let direction = [("name", "direction"), ("x", &x), ("y", &y), ("z", &z)];
         self.xml.empty("vector", &direction);
         self.xml.color("irradiance", irradiance);

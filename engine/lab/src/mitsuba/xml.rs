@@ -36,7 +36,7 @@ impl Xml {
 
     /// A named number.
     pub fn number(&mut self, name: &str, value: f64) {
-        self.value("float", name, &value.to_string());
+        self.value("float", name, &short(value));
     }
 
     /// A named colour, linear Rec. 709.
@@ -46,7 +46,7 @@ impl Xml {
 
     /// A named point.
     pub fn point(&mut self, name: &str, point: DVec3) {
-        let [x, y, z] = point.to_array().map(|value| value.to_string());
+        let [x, y, z] = point.to_array().map(short);
         self.empty("point", &[("name", name), ("x", &x), ("y", &y), ("z", &z)]);
     }
 
@@ -68,7 +68,13 @@ impl Xml {
             [m.x_axis.z, m.y_axis.z, m.z_axis.z, t.z],
             [0.0, 0.0, 0.0, 1.0],
         ];
-        let values = list(rows.as_flattened());
+        let values = list(
+            &rows
+                .as_flattened()
+                .iter()
+                .map(|&v| v.into())
+                .collect::<Vec<f64>>(),
+        );
         self.open("transform", &[("name", "to_world")]);
         self.empty("matrix", &[("value", &values)]);
         self.close();
@@ -107,8 +113,13 @@ impl Xml {
     }
 }
 
-fn list<T: ToString>(values: &[T]) -> String {
-    let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+/// A number as single precision has it, which is what Mitsuba reads.
+pub fn short(value: f64) -> String {
+    (value as f32).to_string()
+}
+
+fn list(values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().copied().map(short).collect();
     values.join(" ")
 }
 

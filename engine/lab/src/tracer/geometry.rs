@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use glam::{DVec3, DVec4, Vec3A};
+use glam::{DVec2, DVec3, DVec4, Vec3, Vec3A, Vec4};
 use lightbench_render::gpu_data::VertexAttributes;
 use obvhs::BvhBuildParams;
 use obvhs::cwbvh::CwBvh;
@@ -48,13 +48,14 @@ pub struct Instance {
     pub material: u32,
 }
 
-/// Where the corners of a triangle find what is not their position.
+/// What the corners of a triangle have beside their position, in one piece: rays jump about, and each
+/// piece of memory that they touch has to be fetched.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners {
     /// Its object.
     pub instance: u32,
-    /// Rows in the table of attributes.
-    pub vertices: [u32; 3],
+    /// In the object's space.
+    pub vertices: [VertexAttributes; 3],
 }
 
 /// A triangle before it has its place in the tree.
@@ -76,7 +77,6 @@ pub struct Geometry {
     corners: Vec<Corners>,
     /// The objects.
     pub instances: Vec<Instance>,
-    attributes: Vec<VertexAttributes>,
 }
 
 /// What a triangle's corners have at a point of it.
@@ -90,11 +90,7 @@ pub struct Interpolated {
 
 impl Geometry {
     /// Builds the tree.
-    pub fn new(
-        loose: &[Loose],
-        instances: Vec<Instance>,
-        attributes: Vec<VertexAttributes>,
-    ) -> Self {
+    pub fn new(loose: &[Loose], instances: Vec<Instance>) -> Self {
         let bvh = build(loose);
         let order = || {
             bvh.primitive_indices
@@ -111,7 +107,6 @@ impl Geometry {
             corners: order().map(|triangle| triangle.corners).collect(),
             bvh,
             instances,
-            attributes,
         }
     }
 
@@ -133,39 +128,35 @@ impl Geometry {
     /// A corner of a triangle, and the edges from there to the other two.
     pub fn edges(&self, triangle: u32) -> [DVec3; 3] {
         let triangle = &self.triangles[triangle as usize];
-        [triangle.v0, -triangle.e1, triangle.e2].map(|v| v.as_dvec3())
+        [
+            triangle.v0.as_dvec3(),
+            -triangle.e1.as_dvec3(),
+            triangle.e2.as_dvec3(),
+        ]
     }
 
     /// Texture coordinates of the three corners.
-    pub fn uvs(&self, triangle: u32) -> [glam::DVec2; 3] {
-        self.vertices(triangle).map(|vertex| {
-            let [u, v] = vertex.uv;
-            glam::DVec2::new(u.into(), v.into())
-        })
+    pub fn uvs(&self, triangle: u32) -> [DVec2; 3] {
+        let corners = &self.corners[triangle as usize];
+        let uv = |[u, v]: [f32; 2]| DVec2::new(u.into(), v.into());
+        let [a, b, c] = &corners.vertices;
+        [uv(a.uv), uv(b.uv), uv(c.uv)]
     }
 
     /// Normal and tangent at a point of a triangle, given by the weights of the corners.
     pub fn interpolate(&self, triangle: u32, weights: DVec3) -> Interpolated {
-        let vertices = self.vertices(triangle);
-        let weights = weights.to_array();
+        let corners = &self.corners[triangle as usize];
         let mut normal = DVec3::ZERO;
         let mut tangent = DVec4::ZERO;
-        for (vertex, weight) in vertices.into_iter().zip(weights) {
-            normal += DVec3::from_array(vertex.normal.map(f64::from)) * weight;
-            tangent += DVec4::from_array(vertex.tangent.map(f64::from)) * weight;
+        for (vertex, weight) in corners.vertices.iter().zip(weights.to_array()) {
+            normal += Vec3::from_array(vertex.normal).as_dvec3() * weight;
+            tangent += Vec4::from_array(vertex.tangent).as_dvec4() * weight;
         }
-        let rows = &self.instance(triangle).rows;
+        let rows = &self.instances[corners.instance as usize].rows;
         Interpolated {
             normal: rows.normal(normal),
             tangent: rows.tangent(tangent.truncate()).extend(tangent.w),
         }
-    }
-
-    fn vertices(&self, triangle: u32) -> [&VertexAttributes; 3] {
-        let corners = &self.corners[triangle as usize];
-        corners
-            .vertices
-            .map(|vertex| &self.attributes[vertex as usize])
     }
 
     /// The weights of the corners where a ray meets a triangle.
@@ -177,7 +168,7 @@ impl Geometry {
     }
 
     /// Whether a ray comes from the front of a triangle.
-    pub fn from_front(&self, triangle: u32, ray: &Ray) -> bool {
+    pub fn shows_front(&self, triangle: u32, ray: &Ray) -> bool {
         // The tree's normals point inwards.
         self.triangles[triangle as usize].ng.dot(ray.direction) > 0.0
     }

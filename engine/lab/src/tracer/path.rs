@@ -113,7 +113,7 @@ impl<'a> Paths<'a> {
             };
             reflections += 1;
             if self.lamps {
-                sum += carried * self.from_lamps(&point, to_viewer, random, witness);
+                sum += carried * self.light_of_a_lamp(&point, to_viewer, random, witness);
             }
             if self.aims() {
                 sum += carried * self.aim(&point, to_viewer, &scatter, random, witness);
@@ -253,7 +253,7 @@ impl<'a> Paths<'a> {
     }
 
     /// Light of one lamp, chosen by what it would send if nothing stood between.
-    fn from_lamps(
+    fn light_of_a_lamp(
         &mut self,
         point: &Point,
         to_viewer: DVec3,
@@ -326,7 +326,7 @@ impl<'a> Paths<'a> {
     /// Chooses a direction as Lambert's cosine weighs it, since the sky is the same all over.
     fn aim_at_sky(&self, point: &Point, scatter: &Scatter, numbers: [f64; 2]) -> Aimed {
         let local = cosine(numbers);
-        let direction = scatter.to_world(local);
+        let direction = scatter.in_world(local);
         Aimed {
             direction,
             radiance: self.scene.sky,

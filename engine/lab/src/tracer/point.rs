@@ -5,7 +5,7 @@ use obvhs::ray::Ray;
 
 use super::geometry::Traits;
 use super::scene::{TracedMaterial, TracedScene};
-use super::texture::{Footprint, sample};
+use super::texture::Footprint;
 use crate::reference::Surface;
 use crate::reference::surface::{bent_normal, opacity, surface_tangent};
 use crate::reference::triangle::{Hit, Triangle};
@@ -50,7 +50,7 @@ impl TracedScene {
         let color = base_color(traced, uv, footprint);
         let vertex = self.geometry.interpolate(triangle, weights);
         let encoded = traced.normals.as_ref();
-        let encoded = encoded.map(|texture| sample(texture, uv, footprint).truncate());
+        let encoded = encoded.map(|texture| texture.sample(uv, footprint).truncate());
         let bent = bent_normal(vertex.normal, vertex.tangent, front, encoded);
         let seen = front || material.two_sided;
         Point {
@@ -135,7 +135,7 @@ impl TracedScene {
 fn base_color(traced: &TracedMaterial, uv: DVec2, footprint: Footprint) -> DVec4 {
     let color = traced.material.base_color.as_dvec3().extend(1.0);
     match &traced.base_color {
-        Some(texture) => color * sample(texture, uv, footprint),
+        Some(texture) => color * texture.sample(uv, footprint),
         None => color,
     }
 }

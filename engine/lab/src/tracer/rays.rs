@@ -53,7 +53,7 @@ impl TracedScene {
         let doubtful = Traits::ONE_SIDED.with(Traits::HOLES);
         self.geometry.nearest(ray, doubtful, |ray, triangle| {
             let traits = self.geometry.traits(triangle);
-            let shows = !traits.any(Traits::ONE_SIDED) || self.geometry.from_front(triangle, ray);
+            let shows = !traits.any(Traits::ONE_SIDED) || self.geometry.shows_front(triangle, ray);
             shows
                 && match line.pixel {
                     Some(_) => !self.is_hole_of_pixel(line, triangle),

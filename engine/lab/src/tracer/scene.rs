@@ -1,10 +1,7 @@
 //! A scene as rays need it: triangles in a tree, materials, lights, and what shines by itself.
 
-use std::collections::HashMap;
-use std::sync::Arc;
-
 use glam::{Affine3A, DVec3, Vec3A};
-use lightbench_assets::{Assets, Material, MaterialId, Mesh, MeshId, Texture};
+use lightbench_assets::{Assets, Material, MaterialId, Mesh};
 use lightbench_render::gpu_data::{LightData, VertexAttributes, matrix_rows};
 use lightbench_render::scene::light_data;
 use lightbench_world::{ClipVolume, Light, MeshRenderer, World, WorldMatrix};
@@ -12,6 +9,7 @@ use lightbench_world::{ClipVolume, Light, MeshRenderer, World, WorldMatrix};
 use super::emitters::Emitters;
 use super::geometry::{Corners, Geometry, Instance, Loose, Traits};
 use super::lights::Lights;
+use super::texture::Filtered;
 use crate::reference::lighting::AMBIENT;
 use crate::reference::transform::Rows;
 
@@ -20,9 +18,9 @@ pub struct TracedMaterial {
     /// As the scene has it.
     pub material: Material,
     /// The picture of its base colour.
-    pub base_color: Option<Arc<Texture>>,
+    pub base_color: Option<Filtered>,
     /// Its normal map.
-    pub normals: Option<Arc<Texture>>,
+    pub normals: Option<Filtered>,
     /// What rays must know of its triangles.
     pub traits: Traits,
 }
@@ -92,8 +90,9 @@ impl TracedScene {
 }
 
 impl TracedMaterial {
-    fn new(material: &Material, assets: &Assets) -> Self {
-        let texture = |id| assets.texture(id).cloned();
+    /// With the textures of a table.
+    pub fn new(material: &Material, assets: &Assets) -> Self {
+        let texture = |id| assets.texture(id).map(Filtered::new);
         let set = |condition, traits| if condition { traits } else { Traits::default() };
         let base_color = material.base_color_texture.and_then(texture);
         Self {
@@ -147,8 +146,6 @@ fn warnings(world: &World) -> Vec<String> {
 fn gather(world: &World, assets: &Assets, materials: &[TracedMaterial]) -> Geometry {
     let mut loose = Vec::new();
     let mut instances = Vec::new();
-    let mut attributes = Vec::new();
-    let mut first_vertices: HashMap<MeshId, u32> = HashMap::new();
     let renderers = world.columns::<MeshRenderer>();
     for (row, entity) in renderers.entities().iter().enumerate() {
         let renderer = renderers.row(row);
@@ -162,37 +159,30 @@ fn gather(world: &World, assets: &Assets, materials: &[TracedMaterial]) -> Geome
         } else {
             MaterialId(0)
         };
-        let first = *first_vertices.entry(renderer.mesh).or_insert_with(|| {
-            let first = attributes.len() as u32;
-            append(&mut attributes, mesh);
-            first
-        });
         let rows = Rows::new(matrix_rows(&matrix));
         let object = Object {
             instance: instances.len() as u32,
-            first,
             mirrored: rows.is_mirrored(),
             traits: materials[material as usize].traits,
         };
         loose.extend(object.triangles(mesh, &matrix));
         instances.push(Instance { rows, material });
     }
-    Geometry::new(&loose, instances, attributes)
+    Geometry::new(&loose, instances)
 }
 
-fn append(attributes: &mut Vec<VertexAttributes>, mesh: &Mesh) {
-    let vertices = mesh.normals.iter().zip(&mesh.uvs).zip(&mesh.tangents);
-    attributes.extend(vertices.map(|((normal, uv), tangent)| VertexAttributes {
-        normal: normal.to_array(),
-        uv: uv.to_array(),
-        tangent: tangent.to_array(),
-    }));
+/// A vertex but for its position.
+fn attributes(mesh: &Mesh, vertex: usize) -> VertexAttributes {
+    VertexAttributes {
+        normal: mesh.normals[vertex].to_array(),
+        uv: mesh.uvs[vertex].to_array(),
+        tangent: mesh.tangents[vertex].to_array(),
+    }
 }
 
 /// What the triangles of an object have in common.
 struct Object {
     instance: u32,
-    first: u32,
     mirrored: bool,
     traits: Traits,
 }
@@ -216,7 +206,7 @@ impl Object {
                 positions,
                 corners: Corners {
                     instance: self.instance,
-                    vertices: corners.map(|corner| self.first + corner as u32),
+                    vertices: corners.map(|corner| attributes(mesh, corner)),
                 },
                 traits: self.traits,
             })

@@ -79,11 +79,11 @@ impl Scatter {
         } else {
             self.lobe.choose(self.to_viewer, numbers)?
         };
-        (local.z > 0.0).then(|| self.to_world(local))
+        (local.z > 0.0).then(|| self.in_world(local))
     }
 
     /// A direction from the surface's own frame.
-    pub fn to_world(&self, local: DVec3) -> DVec3 {
+    pub fn in_world(&self, local: DVec3) -> DVec3 {
         self.tangent * local.x + self.bitangent * local.y + self.normal * local.z
     }
 
