@@ -118,6 +118,10 @@ fn what_means_nothing_is_refused_with_the_way_out() {
         with(&[&direct[..], &[name, value]].concat()).failed(2, &[name, "--mode full"]);
     }
     with(&["--out", "x.exr", "--samples", "0"]).failed(2, &["--samples"]);
+    let huge = ["trace", "tiny", "--size", "100000x100000", "--out", "x.exr"];
+    project
+        .run(&huge)
+        .failed(2, &["--size 100000x100000", "64 million"]);
     with(&["--out", "x.exr", "--tone-curve", "aces"]).failed(2, &["aces", "reinhard"]);
     with(&["--out", "x.exr", "--set", "nothing=1"]).failed(1, &["nothing"]);
     assert!(!project.file("x.exr").exists());

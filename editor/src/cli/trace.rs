@@ -19,6 +19,9 @@ use super::project;
 use super::render::{Format, format_of};
 use super::report::{Stopped, Usage, note, say, warn};
 
+/// Each pixel takes some 60 bytes until the picture is done.
+const MOST_PIXELS: u64 = 64_000_000;
+
 /// Arguments of `lightbench trace`.
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -121,6 +124,14 @@ impl Arguments {
         if mode != Mode::Full {
             self.refuse_paths()?;
         }
+        let Size { width, height } = self.size;
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            return Err(Usage(format!(
+                "--size {width}x{height}: a traced picture has at most {} million pixels, as 8000x8000 \
+                 has; choose a smaller one",
+                MOST_PIXELS / 1_000_000
+            )));
+        }
         let default = Options::default();
         Ok(Options {
             size: self.size.into(),
@@ -187,6 +198,8 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
 
     let progress = Progress::new();
     stop_on_ctrl_c(&progress);
+    // It can't be cancelled yet.
+    let _ = progress.begin("Tracing rays", 0.0);
     let bar = Bar::follow(&progress);
     let start = Instant::now();
     let traced = trace(&traced_scene, &view, &options, &progress);
