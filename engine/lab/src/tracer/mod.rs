@@ -27,6 +27,7 @@ mod direct;
 mod emitters;
 mod film;
 mod geometry;
+mod joined;
 mod lights;
 mod options;
 mod path;

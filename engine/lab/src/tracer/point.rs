@@ -47,10 +47,8 @@ impl TracedScene {
 
         let traced = self.material(triangle);
         let material = &traced.material;
-        let color = base_color(traced, uv, footprint);
+        let (color, encoded) = color_and_normal(traced, uv, footprint);
         let vertex = self.geometry.interpolate(triangle, weights);
-        let encoded = traced.normals.as_ref();
-        let encoded = encoded.map(|texture| texture.sample(uv, footprint).truncate());
         let bent = bent_normal(vertex.normal, vertex.tangent, front, encoded);
         let seen = front || material.two_sided;
         Point {
@@ -130,6 +128,22 @@ impl TracedScene {
         let material = &self.material(triangle).material;
         1.0 - opacity(material.opacity.into(), self.alpha(ray, triangle))
     }
+}
+
+/// The base colour, and what the normal map holds.
+fn color_and_normal(
+    traced: &TracedMaterial,
+    uv: DVec2,
+    footprint: Footprint,
+) -> (DVec4, Option<DVec3>) {
+    if let (Some(joined), Footprint::Point) = (&traced.joined, footprint) {
+        let (color, encoded) = joined.sample(uv);
+        let base = traced.material.base_color.as_dvec3().extend(1.0);
+        return (base * color, Some(encoded));
+    }
+    let normals = traced.normals.as_ref();
+    let encoded = normals.map(|texture| texture.sample(uv, footprint).truncate());
+    (base_color(traced, uv, footprint), encoded)
 }
 
 fn base_color(traced: &TracedMaterial, uv: DVec2, footprint: Footprint) -> DVec4 {

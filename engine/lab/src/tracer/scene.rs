@@ -1,13 +1,17 @@
 //! A scene as rays need it: triangles in a tree, materials, lights, and what shines by itself.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use glam::{Affine3A, DVec3, Vec3A};
-use lightbench_assets::{Assets, Material, MaterialId, Mesh};
+use lightbench_assets::{Assets, Entry, Material, MaterialId, Mesh, TextureId};
 use lightbench_render::gpu_data::{LightData, VertexAttributes, matrix_rows};
 use lightbench_render::scene::light_data;
 use lightbench_world::{ClipVolume, Light, MeshRenderer, World, WorldMatrix};
 
 use super::emitters::Emitters;
 use super::geometry::{Corners, Geometry, Instance, Loose, Traits};
+use super::joined::Joined;
 use super::lights::Lights;
 use super::texture::Filtered;
 use crate::reference::lighting::AMBIENT;
@@ -21,6 +25,8 @@ pub struct TracedMaterial {
     pub base_color: Option<Filtered>,
     /// Its normal map.
     pub normals: Option<Filtered>,
+    /// Both, where they can stand beside each other.
+    pub joined: Option<Arc<Joined>>,
     /// What rays must know of its triangles.
     pub traits: Traits,
 }
@@ -44,11 +50,7 @@ impl TracedScene {
     /// Takes a scene as it stands. The world's matrices must be up to date, as
     /// [`Scene::refresh`](lightbench_script::Scene::refresh) makes them.
     pub fn new(world: &World, assets: &Assets) -> Self {
-        let materials: Vec<TracedMaterial> = assets
-            .materials()
-            .iter()
-            .map(|entry| TracedMaterial::new(&entry.value, assets))
-            .collect();
+        let materials = materials(assets);
         let geometry = gather(world, assets, &materials);
         let all_lights = lights(world);
         let sky = all_lights.iter().filter(|light| light.kind == AMBIENT);
@@ -105,9 +107,30 @@ impl TracedMaterial {
                 .with(set(material.emissive.max_element() > 0.0, Traits::EMISSIVE)),
             base_color,
             normals: material.normal_texture.and_then(texture),
+            joined: None,
             material: material.clone(),
         }
     }
+}
+
+/// All materials of a scene. Those of the same textures share them.
+fn materials(assets: &Assets) -> Vec<TracedMaterial> {
+    let mut known: HashMap<[TextureId; 2], Option<Arc<Joined>>> = HashMap::new();
+    let mut join = |entry: &Entry<Material>| {
+        let material = &entry.value;
+        let mut traced = TracedMaterial::new(material, assets);
+        let ids = [material.base_color_texture, material.normal_texture];
+        if let [Some(color), Some(normals)] = ids
+            && let (Some(first), Some(second)) = (&traced.base_color, &traced.normals)
+        {
+            let joined = known
+                .entry([color, normals])
+                .or_insert_with(|| Joined::new(first, second).map(Arc::new));
+            traced.joined.clone_from(joined);
+        }
+        traced
+    };
+    assets.materials().iter().map(&mut join).collect()
 }
 
 /// All lights as shaders see them, in the order of their rows.

@@ -40,6 +40,16 @@ impl Filtered {
         }
     }
 
+    /// The texture itself.
+    pub fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
+    /// The linear value of each byte of a colour.
+    pub fn values(&self) -> &[f32; 256] {
+        &self.values
+    }
+
     /// The linear value at a place.
     pub fn sample(&self, uv: DVec2, footprint: Footprint) -> DVec4 {
         let texture = &self.texture;
@@ -100,7 +110,7 @@ impl Filtered {
 }
 
 /// The two texels along an axis between whose middles a coordinate lies, and the share of the second.
-fn neighbours(coordinate: f64, size: u32) -> (u32, u32, f32) {
+pub fn neighbours(coordinate: f64, size: u32) -> (u32, u32, f32) {
     // A coordinate that is infinite or no number has no place.
     let coordinate = if coordinate.is_finite() {
         coordinate
