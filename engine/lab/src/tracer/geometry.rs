@@ -244,3 +244,114 @@ fn build(loose: &[Loose]) -> CwBvh {
     };
     build_cwbvh_from_tris(&triangles, parameters, &mut Duration::default())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tracer::random::Random;
+
+    fn geometry(triangles: &[[Vec3A; 3]]) -> Geometry {
+        let identity = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+        ];
+        let vertex = |u: f32, v: f32| VertexAttributes {
+            normal: [0.0, 0.0, 1.0],
+            uv: [u, v],
+            tangent: [1.0, 0.0, 0.0, 1.0],
+        };
+        let loose: Vec<Loose> = triangles
+            .iter()
+            .map(|&positions| Loose {
+                positions,
+                corners: Corners {
+                    instance: 0,
+                    vertices: [vertex(0.0, 0.0), vertex(1.0, 0.0), vertex(0.0, 1.0)],
+                },
+                traits: Traits::default(),
+            })
+            .collect();
+        let instance = Instance {
+            rows: Rows::new(identity),
+            material: 0,
+        };
+        Geometry::new(&loose, vec![instance])
+    }
+
+    fn direction(random: &mut Random) -> Vec3A {
+        let mut number = || random.number() as f32 * 2.0 - 1.0;
+        Vec3A::new(number(), number(), number()).normalize_or(Vec3A::X)
+    }
+
+    /// Of each ray, what the tree finds and what a look at every triangle finds.
+    fn agree(triangles: &[[Vec3A; 3]], reach: f32) {
+        let geometry = geometry(triangles);
+        assert_eq!(geometry.len(), triangles.len());
+        let mut random = Random::of_sample(3, 0, 0);
+        let mut hits = 0;
+        for _ in 0..2000 {
+            let origin = direction(&mut random) * reach;
+            let target = direction(&mut random) * reach * 0.3;
+            let ray = Ray::new(origin, (target - origin).normalize(), 0.0, f32::INFINITY);
+            let every = geometry.triangles.iter().map(|t| t.intersect(&ray));
+            let nearest = every.fold(f32::INFINITY, f32::min);
+            let found = geometry.nearest(ray, Traits::default(), |_, _| true);
+            let at = found.map_or(f32::INFINITY, |(_, at)| at);
+            assert!(
+                at == nearest || (at - nearest).abs() < 1e-4 * nearest,
+                "{at} instead of {nearest}"
+            );
+            let clear = geometry.is_clear(ray, Traits::default(), |_, _| true);
+            assert_eq!(clear, found.is_none());
+            if let Some((triangle, at)) = found {
+                hits += 1;
+                // The weights give the point back, and the side is that of the corners' order.
+                let weights = geometry.weights(triangle, &ray);
+                let [corner, b, c] = geometry.edges(triangle);
+                let point = corner + b * weights.y + c * weights.z;
+                let expected = (ray.origin + ray.direction * at).as_dvec3();
+                assert!((point - expected).length() < 1e-3 * f64::from(reach));
+                let facing = b.cross(c).dot(ray.direction.as_dvec3()) < 0.0;
+                assert_eq!(geometry.shows_front(triangle, &ray), facing);
+            }
+        }
+        assert!(hits > 20, "{hits} rays meet something");
+    }
+
+    #[test]
+    fn the_tree_finds_what_a_look_at_every_triangle_finds() {
+        let mut random = Random::of_sample(1, 0, 0);
+        let triangles: Vec<_> = (0..3000)
+            .map(|_| {
+                let corner = direction(&mut random) * 4.0;
+                [
+                    corner,
+                    corner + direction(&mut random),
+                    corner + direction(&mut random),
+                ]
+            })
+            .collect();
+        agree(&triangles, 10.0);
+    }
+
+    /// One on top of the other, and each twice as large as the one before.
+    #[test]
+    fn heaps_and_towers_of_triangles_are_traversed() {
+        let triangle = |size: f32, at: Vec3A| [at, at + Vec3A::X * size, at + Vec3A::Y * size];
+        let heap: Vec<_> = (0..5000)
+            .map(|_| triangle(3.0, Vec3A::new(-1.0, -1.0, 0.0)))
+            .collect();
+        agree(&heap, 5.0);
+        let tower: Vec<_> = (0..100)
+            .map(|level| {
+                let size = 1.2_f32.powi(level - 80);
+                triangle(size, Vec3A::new(-0.3 * size, -0.3 * size, size))
+            })
+            .collect();
+        agree(&tower, 40.0);
+        assert_eq!(geometry(&[]).len(), 0);
+        let ray = Ray::new_inf(Vec3A::ZERO, Vec3A::X);
+        assert!(!geometry(&[]).bare_nearest(ray) && geometry(&[]).bare_clear(ray));
+    }
+}

@@ -172,7 +172,9 @@ fn gather(world: &World, assets: &Assets, materials: &[TracedMaterial]) -> Geome
     let renderers = world.columns::<MeshRenderer>();
     for (row, entity) in renderers.entities().iter().enumerate() {
         let renderer = renderers.row(row);
-        let Some(mesh) = assets.mesh(renderer.mesh).filter(|_| renderer.visible) else {
+        // A mesh that can't be drawn is not traced either.
+        let sound = |mesh: &&Arc<Mesh>| renderer.visible && mesh.validate().is_ok();
+        let Some(mesh) = assets.mesh(renderer.mesh).filter(sound) else {
             continue;
         };
         let matrix = world.get::<WorldMatrix>(*entity).unwrap_or_default().matrix;
