@@ -31,6 +31,14 @@ impl Export<'_> {
                 LightKind::Directional => self.directional_light(forward, strength),
             }
         }
+        let shines = self.shines;
+        let has_lamps = (0..lights.len()).any(|row| lights.row(row).kind != LightKind::Ambient);
+        if shines && has_lamps {
+            self.leave_out(
+                "lamps behind surfaces that shine, such as their own glass: it hides them"
+                    .to_owned(),
+            );
+        }
         if !is_black(sky) {
             self.xml.open("emitter", &[("type", "constant")]);
             self.xml.color("radiance", sky);

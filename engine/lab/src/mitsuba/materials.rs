@@ -131,6 +131,7 @@ impl Export<'_> {
             self.left_out
                 .insert(format!("material `{name}`: the light of its back"));
         }
+        self.shines = true;
         self.xml.open("emitter", &[("type", "area")]);
         self.xml.color("radiance", radiance);
         self.xml.close();

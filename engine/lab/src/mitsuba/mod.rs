@@ -49,6 +49,7 @@ pub fn export(
         files: 0,
         meshes: BTreeMap::new(),
         left_out: BTreeSet::new(),
+        shines: false,
         xml: Xml::default(),
     };
     export.xml.open("scene", &[("version", "3.0.0")]);
@@ -103,6 +104,8 @@ struct Export<'a> {
     /// Names of the files of meshes.
     meshes: BTreeMap<u32, String>,
     left_out: BTreeSet<String>,
+    /// Whether a surface shines.
+    shines: bool,
     xml: Xml,
 }
 
