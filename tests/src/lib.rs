@@ -13,6 +13,7 @@ pub mod lists;
 pub mod mutation;
 pub mod panes;
 pub mod pixels;
+pub mod tracing;
 pub mod workshop;
 
 pub use workshop::Workshop;

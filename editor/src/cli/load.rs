@@ -6,6 +6,7 @@ use anyhow::{Context as _, anyhow};
 use lightbench::assets::files::Files;
 use lightbench::assets::{Assets, Progress};
 use lightbench::lab::LdrImage;
+use lightbench::lab::capture::STEP;
 use lightbench::render::{Compiler, Gpu, Pipeline, PipelineDesc, Renderer, Variants, View};
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 use lightbench::world::{Light, LightKind, World};
@@ -143,6 +144,41 @@ pub fn stage(files: &mut Files, request: &Request, progress: &Progress) -> anyho
         scene,
         pipelines,
     })
+}
+
+/// A scene as it stands at a frame, without a device.
+///
+/// # Errors
+/// Mistakes in its script, or Ctrl-C.
+pub fn moment(
+    files: &mut Files,
+    scene: &str,
+    arguments: &SceneArguments,
+    frame: u32,
+) -> anyhow::Result<Scene> {
+    let request = Request {
+        scene,
+        arguments,
+        pipelines: &[],
+        gpu: &GpuArguments::default(),
+    };
+    let scripts = scripts(files, &request)?;
+    let files = &*files;
+    let progress = Progress::new();
+    super::progress::stop_on_ctrl_c(&progress);
+    let bar = Bar::follow(&progress);
+    let scene = load_scene(files, &scripts.scene, &scripts.scene_settings, &progress);
+    drop(bar);
+    if progress.is_cancelled() {
+        return Err(Stopped.into());
+    }
+    let mut scene = scene.map_err(|problems| report::problems(files, problems))?;
+    for frame in 1..=frame {
+        let stepped = scene.update(f64::from(frame) * STEP, STEP);
+        stepped.map_err(|problem| report::problems(files, problem))?;
+    }
+    scene.refresh();
+    Ok(scene)
 }
 
 fn open(gpu: &GpuArguments) -> anyhow::Result<(Renderer, Compiler)> {

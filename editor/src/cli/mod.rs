@@ -11,6 +11,7 @@ mod diff;
 mod docs;
 mod doctor;
 mod edit;
+mod export;
 mod faults;
 mod inspect;
 mod list;
@@ -23,6 +24,7 @@ mod report;
 mod run;
 mod save;
 mod settings;
+mod trace;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -70,6 +72,8 @@ enum Command {
     Edit(edit::Arguments),
     /// Writes one picture of a scene, as PNG or EXR
     Render(render::Arguments),
+    /// Traces rays through a scene, for a picture to compare those of pipelines with
+    Trace(trace::Arguments),
     /// Shows what the targets of a frame hold after each pass
     Inspect(inspect::Arguments),
     /// Runs an experiment: a script that draws frames, looks into them and says what it found
@@ -80,6 +84,8 @@ enum Command {
     Diff(diff::Arguments),
     /// Writes a scene to a file that holds its entities instead of a script
     Save(save::Arguments),
+    /// Writes a scene for another renderer, Mitsuba 3
+    Export(export::Arguments),
     /// Lists pipelines, scenes, adapters or files
     List(list::Arguments),
     /// Makes a project for scenes, pipelines and shaders of your own, or a pipeline in one
@@ -137,11 +143,13 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
     match arguments.command {
         Command::Edit(arguments) => edit::run(&arguments, files()?),
         Command::Render(arguments) => render::run(&arguments, files()?),
+        Command::Trace(arguments) => trace::run(&arguments, files()?),
         Command::Inspect(arguments) => inspect::run(&arguments, files()?),
         Command::Run(arguments) => run::run(&arguments, files()?),
         Command::Compare(arguments) => compare::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),
+        Command::Export(arguments) => export::run(&arguments, files()?),
         Command::List(arguments) => list::run(&arguments, &files()?),
         Command::New(arguments) => new::run(&arguments, files),
         Command::Copy(arguments) => copy::run(&arguments, &files()?),

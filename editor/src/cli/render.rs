@@ -48,9 +48,12 @@ pub struct Arguments {
     gpu: GpuArguments,
 }
 
+/// What a picture's file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
+pub enum Format {
+    /// What a display shows.
     Png,
+    /// Linear light.
     Exr,
 }
 
@@ -104,7 +107,11 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     say(arguments.out.display().to_string())
 }
 
-fn format_of(path: &Path) -> Result<Format, Usage> {
+/// The format that a file's name asks for.
+///
+/// # Errors
+/// Another ending.
+pub fn format_of(path: &Path) -> Result<Format, Usage> {
     let extension = path
         .extension()
         .map(|extension| extension.to_ascii_lowercase());

@@ -4,16 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use clap::Args;
-use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
-use lightbench::lab::capture::STEP;
-use lightbench::script::{SCENE_EXTENSION, load_scene};
+use lightbench::script::SCENE_EXTENSION;
 
-use super::arguments::{GpuArguments, SceneArguments};
-use super::load::{self, Request};
-use super::progress::{Bar, stop_on_ctrl_c};
+use super::arguments::SceneArguments;
+use super::load;
 use super::project;
-use super::report::{self, Stopped, Usage, say, warn};
+use super::report::{Usage, say, warn};
 
 /// Arguments of `lightbench save`.
 #[derive(Args, Debug)]
@@ -54,26 +51,8 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         .into());
     }
     project::writable(&arguments.out)?;
-    let request = Request {
-        scene: &arguments.scene,
-        arguments: &arguments.scene_arguments,
-        pipelines: &[],
-        gpu: &GpuArguments::default(),
-    };
-    let scripts = load::scripts(&mut files, &request)?;
-    let progress = Progress::new();
-    stop_on_ctrl_c(&progress);
-    let bar = Bar::follow(&progress);
-    let scene = load_scene(&files, &scripts.scene, &scripts.scene_settings, &progress);
-    drop(bar);
-    if progress.is_cancelled() {
-        return Err(Stopped.into());
-    }
-    let mut scene = scene.map_err(|problems| report::problems(&files, problems))?;
-    for frame in 1..=arguments.frame {
-        let stepped = scene.update(f64::from(frame) * STEP, STEP);
-        stepped.map_err(|problem| report::problems(&files, problem))?;
-    }
+    let (name, given) = (&arguments.scene, &arguments.scene_arguments);
+    let mut scene = load::moment(&mut files, name, given, arguments.frame)?;
     load::tell(&files, &mut scene);
     if scene.has_update() {
         warn("the script's `update` is not part of the file: what only it moves will stand still");

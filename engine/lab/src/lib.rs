@@ -11,7 +11,8 @@
 //! - [`report`] holds a comparison of pipelines as data and writes it as one HTML file, as JSON and
 //!   as CSV, with a summary in words that claims nothing beyond the intervals.
 //!
-//! - [`mod@reference`] has the shaders' formulas on the CPU.
+//! - [`mod@reference`] has the shaders' formulas on the CPU, and [`tracer`] a path tracer that uses them;
+//!   [`mitsuba`] writes scenes for another one.
 //!
 //! - [`capture`] takes a picture of a scene, [`inspect`] looks into its frame pass by pass,
 //!   [`experiment`] does both for scripts, [`measure`] times pipelines on it, [`curves`] does so for
@@ -41,11 +42,13 @@ pub mod heatmap;
 pub mod inspect;
 pub mod measure;
 pub mod metrics;
+pub mod mitsuba;
 mod picture;
 pub mod reference;
 pub mod report;
 pub mod shown;
 pub mod statistics;
+pub mod tracer;
 
 pub use error::LabError;
 pub use picture::{HdrImage, LdrImage, Picture};

@@ -14,6 +14,7 @@ mod frames;
 mod peer;
 mod processor;
 mod sums;
+mod tracer;
 
 use bar::Bars;
 use lightbench::lab::measure::load_average;
@@ -26,12 +27,13 @@ const SIZE: (u32, u32) = (1280, 720);
 type Measurement = fn(&mut Bars);
 
 /// The measurements by name.
-const ALL: [(&str, Measurement); 5] = [
+const ALL: [(&str, Measurement); 6] = [
     ("by_hand", by_hand::run),
     ("sums", sums::run),
     ("culling", culling::run),
     ("processor", processor::run),
     ("peer", peer::run),
+    ("tracer", tracer::run),
 ];
 
 fn main() {

@@ -6,6 +6,12 @@ use lightbench_render::gpu_data::LightData;
 
 use super::brdf::{self, LEAST_COSINE, LEAST_ROUGHNESS};
 
+/// The numbers of kinds of light; see `LIGHT_…` in `shaders/lib/scene.wgsl`.
+const SPOT: u32 = 1;
+const DIRECTIONAL: u32 = 2;
+/// The number of ambient lights.
+pub const AMBIENT: u32 = 3;
+
 /// What light falls on; see `Surface` in `shaders/lib/surface.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
@@ -121,37 +127,77 @@ pub fn specular_lobe(
     }
 }
 
+/// What a light sends to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival {
+    /// Unit vector to the light.
+    pub to_light: DVec3,
+    /// Irradiance of a surface that faces the light, before any shadow.
+    pub irradiance: DVec3,
+    /// How far off the light is, metres; infinite for directional lights.
+    pub distance: f64,
+}
+
+/// What a light that shines from somewhere sends to a point; none for ambient lights, and beyond a
+/// light's range.
+pub fn arriving(light: &LightData, position: DVec3) -> Option<Arrival> {
+    let intensity = double(light.intensity);
+    match light.kind {
+        AMBIENT => return None,
+        DIRECTIONAL => {
+            return Some(Arrival {
+                to_light: -double(light.direction),
+                irradiance: intensity,
+                distance: f64::INFINITY,
+            });
+        }
+        _ => {}
+    }
+    let range = f64::from(light.range);
+    let offset = double(light.position) - position;
+    let distance_squared = offset.length_squared();
+    if distance_squared >= range * range {
+        return None;
+    }
+    let to_light = offset.try_normalize().unwrap_or(DVec3::Y);
+    let mut irradiance = intensity * distance_falloff(distance_squared, range);
+    if light.kind == SPOT {
+        irradiance *= cone_falloff(light, to_light);
+    }
+    Some(Arrival {
+        to_light,
+        irradiance,
+        distance: distance_squared.sqrt(),
+    })
+}
+
+/// 1 inside a spot's inner cone, 0 outside its outer one, squared for a soft edge.
+pub fn cone_falloff(light: &LightData, to_light: DVec3) -> f64 {
+    let cosine = double(light.direction).dot(-to_light);
+    let edge = cosine * f64::from(light.angle_scale) + f64::from(light.angle_offset);
+    edge.clamp(0.0, 1.0).powi(2)
+}
+
 /// Radiance that one light makes the surface send to the viewer.
 pub fn evaluate_light(light: &LightData, surface: &Surface, to_viewer: DVec3) -> DVec3 {
-    const SPOT: u32 = 1;
-    const DIRECTIONAL: u32 = 2;
-    const AMBIENT: u32 = 3;
-    let mut irradiance = double(light.intensity);
     if light.kind == AMBIENT {
-        return surface.base_color * irradiance;
+        return surface.base_color * double(light.intensity);
     }
-    let mut to_light = -double(light.direction);
-    if light.kind != DIRECTIONAL {
-        let range = f64::from(light.range);
-        let offset = double(light.position) - surface.position;
-        if offset.length_squared() >= range * range {
-            return DVec3::ZERO;
-        }
-        to_light = offset.try_normalize().unwrap_or(DVec3::Y);
-        irradiance *= distance_falloff(offset.length_squared(), range);
-        if light.kind == SPOT {
-            let cosine = double(light.direction).dot(-to_light);
-            let edge = cosine * f64::from(light.angle_scale) + f64::from(light.angle_offset);
-            irradiance *= edge.clamp(0.0, 1.0).powi(2);
-        }
-    }
+    arriving(light, surface.position).map_or(DVec3::ZERO, |arrival| {
+        reflected(surface, arrival.to_light, to_viewer) * arrival.irradiance
+    })
+}
+
+/// What the surface sends to the viewer for each unit of irradiance that would fall on it if it faced
+/// the light: the BRDF times the cosine. Zero for light from behind.
+pub fn reflected(surface: &Surface, to_light: DVec3, to_viewer: DVec3) -> DVec3 {
     let n_dot_l = surface.normal.dot(to_light);
     if n_dot_l <= 0.0 {
         return DVec3::ZERO;
     }
     let mirrored = mirror(surface, to_light, to_viewer);
     let specular = surface.specular * mirrored.colored + mirrored.white;
-    (surface.base_color / std::f64::consts::PI + specular) * irradiance * n_dot_l
+    (surface.base_color / std::f64::consts::PI + specular) * n_dot_l
 }
 
 /// Radiance that all lights together make the surface send to an eye at `eye`.

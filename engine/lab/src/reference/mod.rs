@@ -9,6 +9,9 @@ pub mod g_buffer;
 pub mod index_packing;
 pub mod lighting;
 pub mod normals;
+pub mod output;
+pub mod surface;
+pub mod transform;
 pub mod triangle;
 
-pub use lighting::{Surface, evaluate_light, outgoing_radiance};
+pub use lighting::{Surface, evaluate_light, outgoing_radiance, reflected};
