@@ -94,7 +94,7 @@ enum Command {
     Copy(copy::Arguments),
     /// Checks a pipeline and prints every mistake in it
     CheckPipeline(check_pipeline::Arguments),
-    /// Prints the reference of pipeline files, of the shader library or of experiments
+    /// Prints the reference of scene scripts, pipeline files, the shader library or experiments
     Docs(docs::Arguments),
     /// Says what is here, what is missing, and how to mend it
     Doctor,

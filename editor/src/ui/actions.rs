@@ -175,12 +175,21 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
     if ctx.egui_wants_keyboard_input() {
         return;
     }
+    // Letters, digits and the like are the scene's, where its scripts hear them.
+    let scene_has_keys = editor.workbench.scene_has_keys;
+    let is_left = |shortcut: &KeyboardShortcut| {
+        let special = matches!(shortcut.logical_key, Key::F1 | Key::F5 | Key::Home);
+        !scene_has_keys || special || shortcut.modifiers != Modifiers::NONE
+    };
     for entry in entries() {
-        if let Some(shortcut) = entry.shortcut
+        if let Some(shortcut) = entry.shortcut.filter(is_left)
             && ctx.input_mut(|input| input.consume_shortcut(&shortcut))
         {
             editor.perform(entry.action, ctx);
         }
+    }
+    if scene_has_keys {
+        return;
     }
     let chosen = NUMBERS
         .iter()

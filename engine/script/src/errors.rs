@@ -188,9 +188,13 @@ impl Explainer<'_> {
                 "`.{method}` gives the value of the parameter: keep it, as in \
                  `let {name} = p.{method}(\"{name}\", …);`"
             ))
-        } else if let Some(hint) = suggestion(name, known) {
+        } else if let Some(hint) = suggestion(name, known).filter(|_| name.chars().count() > 1) {
             mistake.with_hint(hint)
-        } else if let Some(hint) = self.names.near_function(name, &self.sources.functions()) {
+        } else if let Some(hint) = self
+            .names
+            .near_function(name, &self.sources.functions())
+            .filter(|_| name.chars().count() > 1)
+        {
             mistake.with_hint(hint)
         } else {
             mistake.with_hint(format!(

@@ -259,7 +259,7 @@ fn take_away(engine: &mut Engine) {
     let no_clock = || -> Result<Dynamic, Box<EvalAltResult>> {
         Err(
             Mistake::new("scripts have no clock, so that every run is the same")
-                .with_hint("`fn update(time, dt)` is given the time")
+                .with_hint("`fn update(time, dt)` of a scene is given the time, and `measure` of an experiment tells what a frame costs")
                 .into(),
         )
     };

@@ -259,7 +259,8 @@ fn quaternions(api: &mut Api) {
     api.object::<DQuat>();
     api.function(
         "turn(x, y, z)",
-        "A rotation by degrees about y (left and right), then x (up and down), then z (roll).",
+        "A rotation by angles in degrees: x up and down, y left and right, z roll. They are applied in the order \
+         y, x, z. `turn(90, 0, 0)` stands a plane upright, with its face to the viewer.",
         |a| Ok(from_degrees(a.vector(0)?)),
     );
     api.function(

@@ -179,6 +179,21 @@ impl Names {
 
     /// The nearest plain function.
     pub(crate) fn near_function(&self, name: &str, own: &[String]) -> Option<String> {
+        // As shaders and other languages call them.
+        let elsewhere = [
+            ("ceil", "ceiling"),
+            ("fract", "fraction"),
+            ("frac", "fraction"),
+            ("mod", "modulo"),
+            ("mix", "lerp"),
+            ("radians", "to_radians"),
+            ("degrees", "to_degrees"),
+            ("quat", "turn"),
+            ("mat4", "matrix"),
+        ];
+        if let Some((_, ours)) = elsewhere.iter().find(|(theirs, _)| *theirs == name) {
+            return Some(format!("it is called `{ours}` here"));
+        }
         let names = self
             .entries
             .iter()

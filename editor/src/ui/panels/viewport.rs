@@ -113,7 +113,9 @@ fn listen(editor: &mut Editor, ui: &Ui, response: &Response) {
         let share = (at - response.rect.min) / response.rect.size();
         [share.x, share.y]
     });
-    if pointer.is_none() || ui.ctx().egui_wants_keyboard_input() {
+    let away = pointer.is_none() || ui.ctx().egui_wants_keyboard_input();
+    workbench.scene_has_keys = !away && workbench.scene_wants_keys();
+    if away {
         workbench.happen(SceneEvent::Leave);
         return;
     }
@@ -161,7 +163,7 @@ fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
     if scroll != 0.0 {
         camera.zoom(scroll / 40.0);
     }
-    if ui.ctx().egui_wants_keyboard_input() {
+    if ui.ctx().egui_wants_keyboard_input() || editor.workbench.scene_has_keys {
         return;
     }
     let direction = ui.input(|input| {
@@ -178,7 +180,10 @@ fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
     if direction != Vec3::ZERO {
         let faster = if shift { 4.0 } else { 1.0 };
         // A frame that took long must not throw the camera far.
-        camera.fly(direction, elapsed.min(0.1) * faster);
+        editor
+            .workbench
+            .camera
+            .fly(direction, elapsed.min(0.1) * faster);
         ui.ctx().request_repaint();
     }
 }

@@ -56,6 +56,8 @@ pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The model behind the editor.
 pub struct Workbench {
+    /// Whether the keys of this frame are the scene's.
+    pub scene_has_keys: bool,
     files: Files,
     wake: Wake,
     renderer: Renderer,
@@ -114,6 +116,7 @@ impl Workbench {
         let pipelines = Pipelines::new(renderer.compiler(), files.clone(), wake.clone());
         let watch = Watch::start(&files, &wake, &mut log);
         let mut this = Self {
+            scene_has_keys: false,
             scenes: Scenes::new(files.clone(), wake.clone()),
             pipelines,
             watch,
@@ -392,6 +395,11 @@ impl Workbench {
         self.canvas.invalidate();
     }
 
+    /// Whether keys over the picture are for the scene's scripts: they hear some, and time runs.
+    pub fn scene_wants_keys(&self) -> bool {
+        self.clock.playing && self.scenes.scene().is_some_and(Scene::hears_keys)
+    }
+
     /// Swaps to the pipeline that the scene's scripts ask for.
     fn grant_wish(&mut self) {
         let wish = self.scenes.scene_mut().and_then(Scene::take_wish);
@@ -400,15 +408,12 @@ impl Workbench {
         };
         let before = self.pipelines.shown().map(str::to_owned);
         // A script may ask in each step; what is so already is not built again.
-        if self.pipelines.selected() != name {
-            self.pipelines.select(&name);
-        }
-        for (parameter, value) in settings.iter() {
-            let slot = self.pipelines.slot(&name);
-            let is_set = |slot: &pipelines::Slot| slot.settings.get(parameter) == Some(value);
-            if !slot.is_some_and(is_set) {
-                self.pipelines.set(parameter, value.clone());
-            }
+        let slot = self.pipelines.slot(&name);
+        let is_so = slot.is_some_and(|slot| slot.settings == settings);
+        match (is_so, self.pipelines.selected() == name) {
+            (true, true) => {}
+            (true, false) => self.pipelines.select(&name),
+            (false, _) => self.pipelines.select_with(&name, settings),
         }
         self.pipeline_shown(before.as_deref());
     }

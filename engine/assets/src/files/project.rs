@@ -10,28 +10,31 @@ pub const PROJECT_MARKER: &str = "lightbench.toml";
 
 const MARKER: &str = "\
 # This file marks the top folder of a Lightbench project.
-# `lightbench`, started anywhere below it, works on this project.
+# `lightbench`, started anywhere below it, works on this project. A table `[limits]` here bounds what its
+# scripts may use, as in `load_seconds = 5`.
 ";
 
 const README: &str = "\
 # My Lightbench project
 
-- `scripts/scenes/` has your scenes, `scripts/pipelines/` your lighting pipelines, `shaders/` your
-  shaders, `scripts/experiments/` scripts that `lightbench run` runs. `out/` is for the pictures and
-  reports that you make.
+- `scripts/scenes/` has your scenes, `scripts/behaviours/` scripts that belong to one thing in them,
+  `scripts/pipelines/` your lighting pipelines, `shaders/` your shaders, `scripts/experiments/` scripts
+  that `lightbench run` runs. `out/` is for the pictures and reports that you make.
 - Lightbench brings its own scenes, pipelines and shaders inside the program. A file here with the
   same path is used in place of the one in the program. Edit a shipped file in the editor and it is
   copied here first.
 - Delete your copy to have the shipped file again. A new version of Lightbench never changes this
   folder.
 
-Start with `lightbench edit` in this folder, and see `lightbench list scenes`. `lightbench new pipeline
+Start with `lightbench edit` in this folder, and see `lightbench list scenes`. `lightbench docs api` tells
+all that a scene can say, and `lightbench list files` names small examples to copy. `lightbench new pipeline
 mine` makes a pipeline and a shader to change, and `lightbench docs pipelines` tells what else a pipeline
 can say.
 ";
 
-const FOLDERS: [&str; 5] = [
+const FOLDERS: [&str; 6] = [
     "scripts/scenes",
+    "scripts/behaviours",
     "scripts/pipelines",
     "scripts/experiments",
     "shaders",

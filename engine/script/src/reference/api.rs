@@ -67,25 +67,111 @@ pub(super) fn form(entry: &Entry) -> String {
     format!("`{}{}`", entry.receiver.unwrap_or_default(), entry.form())
 }
 
-/// The first call that shows a function; shorter ones first.
+/// What makes an object of each type that shares names of members with others.
+const MAKERS: [(&str, &[&str]); 11] = [
+    (
+        "entity",
+        &[
+            "spawn",
+            "entity",
+            "point_light",
+            "spot_light",
+            "directional_light",
+            "ambient_light",
+            "camera",
+            "load_obj",
+            "load_model",
+        ],
+    ),
+    (
+        "matrix",
+        &[
+            "matrix",
+            "translation",
+            "rotation",
+            "scaling",
+            "perspective",
+            "view_matrix",
+        ],
+    ),
+    ("selection", &["entities"]),
+    ("column", &["column_of", "indices"]),
+    ("random", &["random"]),
+    ("material", &["material"]),
+    ("quat", &["turn", "turn_toward"]),
+    ("vec3", &["vec3"]),
+    ("color", &["rgb", "srgb", "hsv", "kelvin"]),
+    ("curve", &["curve"]),
+    ("mesh", &["mesh", "model_mesh"]),
+];
+
+/// A call that shows a function: the shortest of those that show it on an object of its type.
 pub(super) fn example(entry: &Entry) -> Option<&'static str> {
     let word = match (entry.property, entry.receiver) {
         (true, _) => format!(".{}", entry.name),
         (false, Some(_)) => format!(".{}(", entry.name),
         (false, None) => format!("{}(", entry.name),
     };
-    let shows = |call: &&&str| {
-        call.match_indices(&word).any(|(at, _)| {
-            let before = call[..at].chars().next_back();
+    let places = |call: &&'static str| -> Vec<usize> {
+        let shows = |at: &usize| {
+            let before = call[..*at].chars().next_back();
             let after = call[at + word.len()..].chars().next();
             let whole_word = !entry.property || !after.is_some_and(is_letter);
             let own = entry.receiver.is_some()
                 || !before.is_some_and(|letter| letter == '.' || is_letter(letter));
             whole_word && own
-        })
+        };
+        let all = call.match_indices(&word).map(|(at, _)| at);
+        all.filter(shows).collect()
     };
-    let all = CALLS.iter().chain(OTHER_CALLS);
-    all.filter(shows).min_by_key(|call| call.len()).copied()
+    let all = CALLS.iter().chain(OTHER_CALLS).copied();
+    let found = all.map(|call| (call, places(&call)));
+    let found = found.filter(|(_, places)| !places.is_empty());
+    let on_its_type = |call: &str, places: &[usize]| {
+        let maker = |at: &usize| maker_of(call, *at);
+        places
+            .iter()
+            .any(|at| is_made_by(entry.receiver, maker(at)))
+    };
+    found
+        .min_by_key(|(call, places)| (!on_its_type(call, places), call.len()))
+        .map(|(call, _)| call)
+}
+
+/// Whether a function makes objects of a type. Types that share no names take any.
+fn is_made_by(receiver: Option<&str>, maker: &str) -> bool {
+    let Some(receiver) = receiver else {
+        return true;
+    };
+    match MAKERS.iter().find(|(known, _)| *known == receiver) {
+        Some((_, makers)) => makers.contains(&maker),
+        None => MAKERS.iter().all(|(_, makers)| !makers.contains(&maker)),
+    }
+}
+
+/// The word with which the chain begins that stands before a place of a call, or that of the variable
+/// which it names.
+fn maker_of(call: &str, at: usize) -> &str {
+    let (mut depth, mut start) = (0_i32, at);
+    for (index, letter) in call[..at].char_indices().rev() {
+        match letter {
+            ')' | ']' => depth += 1,
+            '(' | '[' if depth > 0 => depth -= 1,
+            _ if depth > 0 || letter == '.' || is_letter(letter) => {}
+            _ => break,
+        }
+        start = index;
+    }
+    let first = |text: &'_ str| text.find(|letter| !is_letter(letter)).unwrap_or(text.len());
+    let word = &call[start..start + first(&call[start..at])];
+    let declared = format!("let {word} = ");
+    match call.find(&declared) {
+        Some(found) => {
+            let value = &call[found + declared.len()..];
+            &value[..first(value)]
+        }
+        None => word,
+    }
 }
 
 pub(super) fn is_letter(letter: char) -> bool {

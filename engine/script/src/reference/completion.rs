@@ -141,7 +141,7 @@ fn members(scene: &Scene, object: &str) -> Vec<Candidate> {
 
 /// The type of what a line ends with, where the names alone tell it: a call, a property or a
 /// variable.
-fn type_of(scene: &Scene, object: &str) -> Option<&'static str> {
+pub(super) fn type_of(scene: &Scene, object: &str) -> Option<&'static str> {
     let names = scene.names();
     let (called, property) = match object.strip_suffix(')') {
         Some(inside) => (open_call(inside)?.0, false),

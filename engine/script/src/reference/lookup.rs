@@ -3,6 +3,7 @@
 use lightbench_world::reflect::{FieldInfo, Role};
 
 use super::api::{example, form, is_form, is_letter};
+use super::completion::type_of;
 use crate::names::{Entry, Names};
 use crate::scene::Scene;
 use crate::scene::overlays::field_path;
@@ -75,7 +76,13 @@ pub fn help_at(scene: &Scene, line: &str, caret: usize) -> Vec<Help> {
         });
         has_receiver == member
     };
-    let (fitting, others): (Vec<Help>, Vec<Help>) = all.into_iter().partition(fits);
+    let (mut fitting, others): (Vec<Help>, Vec<Help>) = all.into_iter().partition(fits);
+    // Those of the type that stands before the dot come first.
+    let object = rest.strip_suffix('.');
+    if let Some(known) = object.and_then(|object| type_of(scene, object)) {
+        let of_it = format!("{known}.");
+        fitting.sort_by_key(|help| !help.forms[0].starts_with(&of_it));
+    }
     if fitting.is_empty() { others } else { fitting }
 }
 

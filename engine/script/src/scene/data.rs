@@ -48,6 +48,8 @@ pub(super) struct Data {
     pub(super) input: Input,
     /// The pipeline that a script has asked for since somebody looked.
     pub(super) wish: Option<PipelineWish>,
+    /// The last one, which is known to be good.
+    pub(super) wished: Option<PipelineWish>,
     /// What the scene's own script remembers.
     pub(super) state: State,
     /// What behaviours kept before, for those that begin now.
@@ -100,6 +102,7 @@ impl Stage {
             models: Models::default(),
             input: Input::default(),
             wish: None,
+            wished: None,
             state: State::default(),
             kept: Vec::new(),
             messages: Vec::new(),

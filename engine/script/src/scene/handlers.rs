@@ -1,5 +1,6 @@
 //! The functions of a script that are called when something happens.
 
+use lightbench_render::problem::suggestion;
 use lightbench_render::{Place, Problem};
 use lightbench_world::Entity;
 use lightbench_world::glam::DVec3;
@@ -119,6 +120,7 @@ impl Handlers {
                 .map_err(|error| Problem::new(Place::file(path), error))?;
             *slot = Some(call);
         }
+        warn_of_near_misses(host, path, forms);
         Ok(found)
     }
 
@@ -129,5 +131,29 @@ impl Handlers {
 
     pub(super) fn of(&self, event: &Event) -> Option<&AST> {
         self.0[event.index()].as_ref()
+    }
+}
+
+/// Tells of functions whose names are almost those that are called, and which nobody calls.
+fn warn_of_near_misses(host: &Host, path: &str, forms: &Forms) {
+    let source = host.compiler.sources.get(path).unwrap_or_default();
+    let known = || {
+        forms
+            .iter()
+            .map(|(name, _)| *name)
+            .filter(|name| !name.is_empty())
+    };
+    for function in &source.functions {
+        let name = function.name.as_str();
+        let calls = source.text.matches(&format!("{name}(")).count();
+        if known().any(|known| known == name) || calls > 1 {
+            continue;
+        }
+        let folded = name.to_lowercase();
+        if let Some(hint) = suggestion(&folded, known()) {
+            let at = Place::new(path, function.line, function.column);
+            let text = format!("warning: nothing calls `{name}`: {hint}");
+            host.log.add(at, text);
+        }
     }
 }

@@ -7,7 +7,10 @@ use rhai::{Array, Dynamic};
 use super::data::{Data, Stage};
 use super::handlers::Event;
 use super::picking::{Ray, pick};
-use crate::api::Api;
+use lightbench_render::problem::suggestion;
+
+use crate::api::{Api, Arguments, Mistake};
+use crate::names::list;
 
 /// Something that happens outside of a scene, for [`Scene::happen`](super::Scene::happen).
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +51,57 @@ pub(super) struct Input {
     down: BTreeSet<String>,
     pointer: Option<[f32; 2]>,
     happened: Vec<Happened>,
+    /// Whether a script has asked which keys are down.
+    pub(super) was_asked: bool,
+}
+
+/// The names of keys, beside letters and digits.
+const NAMED: [&str; 23] = [
+    "space",
+    "enter",
+    "tab",
+    "escape",
+    "backspace",
+    "delete",
+    "insert",
+    "home",
+    "end",
+    "pageup",
+    "pagedown",
+    "left",
+    "right",
+    "up",
+    "down",
+    "comma",
+    "period",
+    "minus",
+    "plus",
+    "equals",
+    "semicolon",
+    "slash",
+    "backslash",
+];
+
+/// The name of a key in lower case.
+fn key_name(a: &Arguments) -> Result<String, Mistake> {
+    let key = a.text(0)?.to_lowercase();
+    let mut letters = key.chars();
+    let single = letters.next().is_some_and(char::is_alphanumeric) && letters.next().is_none();
+    if single || NAMED.contains(&key.as_str()) {
+        return Ok(key);
+    }
+    let mistake = Mistake::new(format!("there is no key `{key}`"));
+    // As browsers name the arrows.
+    let known = NAMED
+        .into_iter()
+        .chain(["arrowleft", "arrowright", "arrowup", "arrowdown"]);
+    let near = suggestion(&key, known).map(|hint| hint.replace("`arrow", "`"));
+    Err(mistake.with_hint(near.unwrap_or_else(|| {
+        format!(
+            "keys are letters and digits, and {}",
+            list(NAMED.into_iter(), "and")
+        )
+    })))
 }
 
 /// More are dropped: nobody types so fast, and a scene that stands still would collect them.
@@ -87,16 +141,24 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
     let asked = stage.clone();
     api.function(
         "key_down(key)",
-        "Whether a key is down: a letter or digit as in `\"a\"`, or `space`, `enter`, `tab`, \
-         `escape`, `left`, `right`, `up` or `down`. No key is where no window is.",
-        move |a| Ok(asked.lock().input.down.contains(&a.text(0)?.to_lowercase())),
+        "Whether a key is down: a letter or digit as in `\"a\"`, or `space`, `enter`, `tab`, `escape`, \
+         `backspace`, `home`, `end`, `left`, `right`, `up` or `down`. No key is where no window is. In the \
+         editor, keys are the scene's while the pointer is over the picture, time runs and a script hears \
+         them; elsewhere they are the editor's.",
+        move |a| {
+            let key = key_name(a)?;
+            let input = &mut asked.lock().input;
+            input.was_asked = true;
+            Ok(input.down.contains(&key))
+        },
     );
     let asked = stage.clone();
     api.function(
         "keys_down()",
         "The names of all keys that are down, in the order of the alphabet.",
         move |_| {
-            let data = asked.lock();
+            let mut data = asked.lock();
+            data.input.was_asked = true;
             let keys = data.input.down.iter().cloned().map(Dynamic::from);
             Ok(keys.collect::<Array>())
         },

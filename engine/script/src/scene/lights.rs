@@ -10,11 +10,16 @@ use crate::api::{Api, Arguments, Mistake};
 use crate::color::Color;
 
 const POINT: &str = "Makes a light that shines from a point in all directions. Its intensity is in \
-                     W/sr: what it lays on a surface 1 m away that faces it, in W/m².";
-const SPOT: &str = "Makes a light that shines from a point into a cone. Its intensity is in W/sr.";
+                     W/sr: what it lays on a surface 1 m away that faces it, in W/m². It begins at \
+                     (0, 3, 0) with intensity 1 and range 10; it is turned downward, and hands its \
+                     rotation down to what is put below it.";
+const SPOT: &str = "Makes a light that shines from a point into a cone. Its intensity is in W/sr. It begins at \
+                    (0, 3, 0), shining down, with intensity 1, range 10 and cones of 30° and 45°.";
 const DIRECTIONAL: &str = "Makes a light from infinitely far away, as the sun's. Its intensity is \
-                           in W/m² on a surface that faces it.";
-const AMBIENT: &str = "Makes a light from everywhere alike. Its intensity is in W/(m² sr).";
+                           in W/m² on a surface that faces it. It begins at (0, 3, 0), shining down, \
+                           with intensity 1.";
+const AMBIENT: &str = "Makes a light from everywhere alike. Its intensity is in W/(m² sr), 1 unless \
+                       told. It is drawn as the sky, too.";
 
 /// The height from which lights that were not turned shine down on the origin.
 const HEIGHT: Vec3 = Vec3::new(0.0, 3.0, 0.0);

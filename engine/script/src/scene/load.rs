@@ -143,7 +143,7 @@ pub(super) fn host(
     let mut stage = None;
     let state = State::with(kept.scene);
     let mut kept = kept.behaviours;
-    let at_work = AtWork::default();
+    let at_work = AtWork::new(&state);
     let defined = Textures::default();
     let host = Host::new(
         files,

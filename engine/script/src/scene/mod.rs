@@ -221,6 +221,12 @@ impl Scene {
         self.stage.lock().input.happen(event);
     }
 
+    /// Whether its scripts hear keys: by a function `on_key`, or by asking which are down.
+    #[must_use]
+    pub fn hears_keys(&self) -> bool {
+        self.script.hears_keys() || self.behaviours.hear_keys() || self.stage.lock().input.was_asked
+    }
+
     /// The pipeline that its scripts have asked for since the last call.
     pub fn take_wish(&mut self) -> Option<PipelineWish> {
         self.stage.lock().wish.take()

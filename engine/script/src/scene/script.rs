@@ -23,6 +23,11 @@ impl OwnScript {
         })
     }
 
+    /// Whether it hears keys.
+    pub(super) fn hears_keys(&self) -> bool {
+        !self.stopped && self.handlers.of(&Event::Key(String::new())).is_some()
+    }
+
     /// Whether it is called while the scene runs.
     pub(super) fn runs(&self) -> bool {
         !self.stopped && !self.handlers.is_empty()

@@ -181,3 +181,93 @@ fn a_script_asks_for_a_pipeline() {
         Some("did you mean `tiled_forward`?")
     );
 }
+
+#[test]
+fn functions_without_a_name_see_the_state() {
+    let mut scene = scene(
+        "state.least = 2;
+        print([1, 2, 3].filter(|x| x >= state.least).len());
+        fn update() { print([1, 2, 3].map(|x| x * state.least)[2]); }",
+    );
+    scene.update(0.1, 0.1).unwrap();
+    assert_eq!(said(&mut scene), ["2", "6"]);
+}
+
+#[test]
+fn near_misses_of_names_that_are_called_are_told() {
+    let mut first = scene("fn Update(t, dt) { }\nfn on_keys(key) { }\nfn updated() { } updated();");
+    let told = said(&mut first);
+    assert_eq!(
+        told,
+        [
+            "warning: nothing calls `Update`: did you mean `update`?",
+            "warning: nothing calls `on_keys`: did you mean `on_key`?",
+        ]
+    );
+    let mut second = scene("fn update() { step(); } fn step() { }");
+    assert_eq!(said(&mut second), [""; 0]);
+}
+
+#[test]
+fn a_key_that_there_is_not_is_refused() {
+    for (key, hint) in [
+        ("ArrowLeft", "did you mean `left`?"),
+        ("spcae", "did you mean `space`?"),
+        ("shift", "keys are letters and digits"),
+    ] {
+        let text = format!("key_down(\"{key}\");");
+        let (_folder, files) = project(&[("scripts/scenes/test.rhai", &text)]);
+        let problems = crate::load_scene(&files, "test", &Settings::new(), &Progress::new());
+        let told = problems.unwrap_err().to_string();
+        assert!(
+            told.contains("there is no key") && told.contains(hint),
+            "{told}"
+        );
+    }
+    let mut scene = scene("fn update() { key_down(\"7\"); key_down(\"Space\"); }");
+    assert!(!scene.hears_keys());
+    scene.update(0.1, 0.1).unwrap();
+    assert!(scene.hears_keys());
+}
+
+#[test]
+fn a_click_on_a_part_goes_to_what_it_belongs_to() {
+    let files = [
+        (
+            "scripts/behaviours/door.rhai",
+            "fn on_click(point) { print(me.name + \" \" + round(point.z)); }",
+        ),
+        (
+            "scripts/scenes/test.rhai",
+            "let door = spawn(\"door\").behave(\"door\");
+            spawn(\"leaf\").mesh(sphere(1)).material(material(\"oak\")).parent(door);",
+        ),
+    ];
+    let mut scene = load(&files, KeptState::default());
+    let ray = Ray {
+        origin: Vec3::new(0.0, 0.0, 5.0),
+        direction: Vec3::NEG_Z,
+    };
+    scene.happen(SceneEvent::Click(ray));
+    // The behaviour's file is needed no more: it began with the scene.
+    scene.update(0.1, 0.1).unwrap();
+    assert_eq!(said(&mut scene), ["door 1.0"]);
+}
+
+#[test]
+fn wrong_values_for_a_pipeline_are_told_at_their_line() {
+    for (call, expected) in [
+        ("use_pipeline(\"tiled_forward\", #{ foo: 1 });", "`foo`"),
+        (
+            "use_pipeline(\"tiled_forward\", #{ tile_size: 7 });",
+            "`tile_size`",
+        ),
+    ] {
+        let text = format!("let a = 1;\n{call}");
+        let (_folder, files) = project(&[("scripts/scenes/test.rhai", &text)]);
+        let problems = crate::load_scene(&files, "test", &Settings::new(), &Progress::new());
+        let problem = problems.unwrap_err().0.remove(0);
+        assert_eq!(problem.place.line, 2, "{problem}");
+        assert!(problem.message.contains(expected), "{problem}");
+    }
+}

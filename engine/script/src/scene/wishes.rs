@@ -1,9 +1,11 @@
 //! The pipeline that a scene's scripts ask to be drawn with.
 
+use lightbench_render::Problems;
+
 use super::data::Stage;
 use crate::api::{Api, Mistake, as_number};
 use crate::host::find;
-use crate::pipeline::PIPELINES;
+use crate::pipeline::{PIPELINES, load_pipeline_within};
 use crate::settings::{SettingValue, Settings};
 
 /// A pipeline that a script asks for.
@@ -11,7 +13,7 @@ use crate::settings::{SettingValue, Settings};
 pub struct PipelineWish {
     /// Its name, or the path of its file.
     pub name: String,
-    /// Values for its parameters; the others keep those that they have.
+    /// Values for its parameters; the others have their defaults.
     pub settings: Settings,
 }
 
@@ -22,7 +24,7 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
             form,
             "Draws the scene with another pipeline from the next frame on, in the editor; commands draw with the \
              pipeline that they are given. `name` is as in `lightbench list pipelines`; `values` are for its \
-             parameters.",
+             parameters, of which the others have their defaults.",
             move |a| {
                 let name = a.text(0)?;
                 let data = &mut *stage.lock();
@@ -47,10 +49,30 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
                         })?);
                     }
                 }
-                data.wish = Some(PipelineWish { name, settings });
+                let wish = PipelineWish { name, settings };
+                // Asked for in each step it is looked at once.
+                if data.wished.as_ref() != Some(&wish) {
+                    let (name, settings) = (&wish.name, &wish.settings);
+                    let read = load_pipeline_within(&data.files, name, settings, &data.limits);
+                    read.map_err(first_mistake)?;
+                    data.wished = Some(wish.clone());
+                }
+                data.wish = Some(wish);
                 Ok(())
             },
         );
+    }
+}
+
+/// What is wrong with the pipeline or the values, in the words of the line that asks for it.
+fn first_mistake(Problems(problems): Problems) -> Mistake {
+    let Some(first) = problems.into_iter().next() else {
+        return Mistake::new("the pipeline can't be read");
+    };
+    let mistake = Mistake::new(first.message);
+    match first.hint {
+        Some(hint) => mistake.with_hint(hint),
+        None => mistake,
     }
 }
 

@@ -14,7 +14,9 @@ pub(crate) fn register(api: &mut Api, stage: &Stage) {
     let about = "Gives the entity a behaviour: a script of its own, `scripts/behaviours/NAME.rhai` or a \
                  path, with values for its parameters. The script sees the entity as `me` and has its \
                  own `state`; its functions `init()`, `update(time, dt)`, `on_key(key)`, \
-                 `on_click(point)` and `on_message(name, value)` are called. An entity has one \
+                 `on_click(point)` and `on_message(name, value)` are called. A click on a part goes \
+                 to the nearest entity above it that hears clicks. A path begins in the \
+                 project's folder, as in `scripts/behaviours/spin.rhai`. An entity has one \
                  behaviour; another takes its place.";
     for form in ["behave(name)", "behave(name, values)"] {
         method(api, stage, form, about, |data, entity, a| {

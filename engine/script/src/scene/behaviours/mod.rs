@@ -13,6 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use lightbench_render::Problem;
 use lightbench_render::problem::Problems;
+use lightbench_world::glam::DVec3;
 use lightbench_world::{Behaviour, Entity, Name, Parameters, Value, World};
 use rhai::{Dynamic, Module, Scope, Shared};
 
@@ -51,15 +52,26 @@ pub(super) struct Message {
 
 /// The behaviour at work, as its functions see it.
 #[derive(Clone, Default)]
-pub(super) struct AtWork(Arc<Mutex<Option<(Entity, State)>>>);
+pub(super) struct AtWork {
+    now: Arc<Mutex<Option<(Entity, State)>>>,
+    /// What the scene's own script remembers.
+    scene: State,
+}
 
 impl AtWork {
+    pub(super) fn new(scene: &State) -> Self {
+        Self {
+            now: Arc::default(),
+            scene: scene.clone(),
+        }
+    }
+
     fn set(&self, now: Option<(Entity, State)>) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = now;
+        *self.now.lock().unwrap_or_else(PoisonError::into_inner) = now;
     }
 
     fn get(&self) -> Option<(Entity, State)> {
-        let now = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let now = self.now.lock().unwrap_or_else(PoisonError::into_inner);
         now.clone()
     }
 
@@ -75,6 +87,8 @@ impl AtWork {
                 )
                 .with_hint(format!("behaviours lie in {BEHAVIOURS}/"))),
                 ("state", Some((_, state))) => Ok(Some(Dynamic::from(state))),
+                // Functions without a name see what is looked up, and no globals.
+                ("state", None) => Ok(Some(Dynamic::from(at_work.scene.clone()))),
                 _ => Ok(None),
             }),
         }
@@ -148,6 +162,13 @@ impl Behaviours {
         self.instances.iter().map(info).collect()
     }
 
+    /// Whether one of them hears keys.
+    pub(super) fn hear_keys(&self) -> bool {
+        let key = Event::Key(String::new());
+        let hears = |instance: &Instance| !instance.stopped && instance.handlers.of(&key).is_some();
+        self.instances.iter().any(hears)
+    }
+
     /// The next error that nobody has been told of.
     pub(super) fn take_problem(&mut self) -> Option<Problem> {
         (!self.problems.is_empty()).then(|| self.problems.remove(0))
@@ -165,11 +186,26 @@ impl Behaviours {
         self.start_and_end(host, stage);
         for event in happened {
             match event {
-                Event::Click(entity, _) => self.tell(host, stage, *entity, event),
+                Event::Click(entity, _) => {
+                    if let Some(heard) = self.nearest(stage, *entity) {
+                        self.tell(host, stage, heard, event);
+                    }
+                }
                 _ => self.tell_all(host, stage, event),
             }
         }
         self.tell_all(host, stage, &Event::Update { time, dt });
+    }
+
+    /// The entity, or the nearest above it, whose behaviour hears clicks: a door is made of parts.
+    fn nearest(&self, stage: &Stage, entity: Entity) -> Option<Entity> {
+        let hears = |entity: &Entity| {
+            let instance = self.places.get(entity).map(|&at| &self.instances[at]);
+            let click = Event::Click(*entity, DVec3::ZERO);
+            instance.is_some_and(|instance| instance.handlers.of(&click).is_some())
+        };
+        let data = stage.lock();
+        std::iter::successors(Some(entity), |entity| data.world.parent(*entity)).find(hears)
     }
 
     /// Delivers messages to the behaviours that they are for.
