@@ -272,7 +272,8 @@ fn define<'a, Id: Copy + Eq + Hash>(
         let recipe = recipe(id).ok_or_else(|| {
             format!(
                 "the {kind} `{asked}` can't be saved: nothing is known of how it was made, because \
-                 no function of a script made it"
+                 no call with plain values made it: it was painted by a function of the script, or \
+                 set by the program"
             )
         })?;
         names.insert(id, name.clone());

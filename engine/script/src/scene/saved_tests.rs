@@ -131,6 +131,15 @@ fn every_shipped_scene_can_be_saved() {
     let files = Files::shipped();
     for entry in list_scenes(&files).unwrap() {
         let mut scene = open(&files, &entry.name).unwrap();
+        if entry.name == "solar_system" {
+            // Its planets are painted by functions, of which a file of entities knows nothing.
+            let problem = scene.to_text().unwrap_err();
+            assert!(
+                problem.message.contains("painted by a function"),
+                "{problem}"
+            );
+            continue;
+        }
         let text = scene.to_text().unwrap();
         let (_folder, files) = project(&[("s.scene", &text)]);
         let mut again = open(&files, "s.scene").unwrap_or_else(|e| panic!("{}: {e}", entry.name));
