@@ -50,8 +50,8 @@ fn press(bench: &mut Bench, keys: &[Key]) {
 /// What the scene's script has heard last.
 fn heard(bench: &Bench) -> String {
     let lines = bench.harness.state().workbench.log.lines();
-    let heard = lines.filter_map(|line| line.text.strip_prefix("heard: "));
-    heard.last().unwrap_or_default().trim_end().to_owned()
+    let mut heard = lines.filter_map(|line| line.text.strip_prefix("heard: "));
+    heard.next_back().unwrap_or_default().trim_end().to_owned()
 }
 
 #[test]

@@ -31,8 +31,11 @@ const CALLS: (u64, u64) = (1_500, 80_000);
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Words that belong to the program and not to scripts.
-const OURS: [&str; 8] = [
-    "::",
+const OURS: [&str; 11] = [
+    "core::",
+    "alloc::",
+    "rhai::",
+    "glam::",
     "i64",
     "f64",
     "usize",
