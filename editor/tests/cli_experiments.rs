@@ -296,6 +296,13 @@ fn the_shipped_experiments_run() {
         let file = format!("out/work_{}.png", answer.replace(' ', "_"));
         assert!(project.file(&file).exists(), "{file}");
     }
+    let quick = ["frames=6", "few=1", "many=24", "width=64", "spheres=9"];
+    let quick = quick.map(|value| ["--set", value]).concat();
+    let ran = project.run(&[&["run", "break_even"][..], &quick].concat());
+    let ran = ran.succeeded();
+    assert!(ran.stdout.contains("break-even"), "{}", ran.all());
+    let plot = std::fs::read_to_string(project.file("out/break_even.svg")).unwrap();
+    assert!(plot.contains("forward_single_pass") && plot.contains("tiled_forward"));
     // Without a project everything runs that writes no picture.
     let folder = tempfile::tempdir().unwrap();
     let ran = run_in(folder.path(), &["run", "follow_a_pixel"], &[]).succeeded();

@@ -326,3 +326,28 @@ fn a_machine_without_a_driver_is_told_the_way_out() {
         run_in(project.path(), &["list", "adapters"], &none).failed(1, &["mesa-vulkan-drivers"]);
     }
 }
+
+#[test]
+fn limits_are_set_by_the_project_and_over_it_by_who_runs_it() {
+    let project = Project::new();
+    project.write(
+        "scripts/scenes/crowd.rhai",
+        "for i in 0..40 { spawn(); }\nfn update() { }\n",
+    );
+    let render = |more: &[&str]| project.render("crowd", "x.png", more);
+    assert_eq!(render(&[]).status, 0);
+    project.write("exam.toml", "[limits]\nentities = 10\n");
+    let limited = ["--limits", "exam.toml"];
+    let too_many = ["crowd.rhai:1:", "the scene has 10 entities"];
+    render(&limited).failed(1, &too_many);
+    // A student's own file does not loosen what the command line says.
+    project.write("lightbench.toml", "[limits]\nentities = 1000\n");
+    render(&limited).failed(1, &too_many);
+    assert_eq!(render(&[]).status, 0);
+    project.write("lightbench.toml", "[limits]\nentities = 20\n");
+    render(&[]).failed(1, &["the scene has 20 entities"]);
+
+    project.write("exam.toml", "[limits]\nloadseconds = 2\n");
+    render(&limited).failed(1, &["exam.toml:2:1", "`loadseconds`"]);
+    render(&["--limits", "none.toml"]).failed(1, &["none.toml"]);
+}

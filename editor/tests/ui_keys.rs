@@ -120,3 +120,25 @@ fn what_a_script_keeps_goes_on_after_a_save() {
     press(&mut bench, &[Key::Y]);
     bench.until("42", told("count 42"));
 }
+
+/// Every key that the editor may tell a scene of is one that a script may ask for.
+#[test]
+fn keys_have_the_same_names_for_those_who_hear_them_and_those_who_ask() {
+    let mut bench = Bench::open();
+    open(&mut bench, "fn update() { }");
+    // Keys for players, browsers and the machine itself are nothing to play a scene with.
+    let special = [
+        "Browser", "Media", "Audio", "Launch", "Copy", "Cut", "Paste", "Fn", "Eject", "Power",
+        "Sleep",
+    ];
+    let workbench = &mut bench.harness.state_mut().workbench;
+    let scene = workbench.scenes.scene_mut().unwrap();
+    for key in Key::ALL {
+        if !special.iter().any(|prefix| key.name().starts_with(prefix)) {
+            let line = format!("key_down(\"{}\")", key.name().to_lowercase());
+            scene
+                .evaluate(&line)
+                .unwrap_or_else(|problem| panic!("{problem}"));
+        }
+    }
+}

@@ -12,9 +12,10 @@ const KEPT: libc::c_int = 64 << 20;
 /// frame. llvmpipe holds the transformed vertices of each draw of an instance in memory of their own,
 /// and a page that comes anew from the system must be filled with zeros first. With 256 spheres of 960
 /// triangles (`many_lights`, 320 × 180 pixels, two cores) a frame of clustered deferred shading takes
-/// 42 ms without this and 23 ms with it, one of deferred lighting 70 and 37 ms.
+/// 42 ms without this and 23 ms with it, one of deferred lighting 70 and 37 ms: the bench `bars` compares
+/// them (`memory`). [`Gpu`](crate::Gpu) calls it when it opens a software adapter.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
-pub(crate) fn keep_freed_memory() {
+pub fn keep_freed_memory() {
     // SAFETY: the calls take no pointer, and glibc guards its settings against other threads.
     #[allow(unsafe_code)]
     unsafe {
@@ -25,7 +26,7 @@ pub(crate) fn keep_freed_memory() {
 
 /// Other systems' libraries have no such setting.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub(crate) fn keep_freed_memory() {}
+pub fn keep_freed_memory() {}
 
 /// Gives pages that hold nothing back to the system, where the C library keeps them. Each compilation
 /// takes some megabytes of small pieces in several threads, and what is dropped later leaves holes

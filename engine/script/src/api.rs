@@ -8,6 +8,7 @@
 use std::any::TypeId;
 use std::sync::Arc;
 
+use lightbench_render::Problem;
 use rhai::{
     Dynamic, Engine, EvalAltResult, FuncRegistration, NativeCallContext, Position, Variant,
 };
@@ -34,6 +35,16 @@ impl Mistake {
     pub(crate) fn with_hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
+    }
+}
+
+/// A problem of another file, told at the line that asked for it.
+impl From<Problem> for Mistake {
+    fn from(problem: Problem) -> Self {
+        Self {
+            message: problem.message,
+            hint: problem.hint,
+        }
     }
 }
 

@@ -2,10 +2,11 @@
 
 use lightbench_render::Place;
 use lightbench_render::problem::suggestion;
-use rhai::{Dynamic, Engine, NativeCallContext, Position};
+use rhai::{Dynamic, Engine, Map, NativeCallContext, Position};
 
 use crate::api::{Mistake, ScriptType};
 use crate::names::{Entry, list};
+use crate::settings::{SettingValue, Settings};
 use crate::spelling::spell;
 
 /// The arguments of one call, with what is needed to speak about them.
@@ -137,6 +138,24 @@ impl Arguments<'_, '_, '_, '_> {
             .clone()
             .into_array()
             .map_err(|_| self.wrong(index, "an array"))
+    }
+
+    /// Values for parameters: a map of numbers, texts and switches. `whose` names it in messages.
+    pub(crate) fn settings(&self, map: &Map, whose: &str) -> Result<Settings, Mistake> {
+        let mut settings = Settings::new();
+        for (parameter, value) in map {
+            let number = as_number(value).map(SettingValue::Number);
+            let switch = || value.as_bool().ok().map(SettingValue::Switch);
+            let text = || value.clone().into_string().ok().map(SettingValue::Text);
+            let read = number.or_else(switch).or_else(text).ok_or_else(|| {
+                Mistake::new(format!(
+                    "`{parameter}` in {whose} must be a number, `true` or `false`, or a text, not {}",
+                    self.describe(value)
+                ))
+            })?;
+            settings.set(parameter.as_str(), read);
+        }
+        Ok(settings)
     }
 
     /// One of some names.

@@ -59,7 +59,7 @@ pub use names::{Entry, Names};
 pub use parameters::{SceneParameter, SceneParameterKind};
 pub use pipeline::{PIPELINES, PipelineEntry, list_pipelines, load_pipeline, load_pipeline_within};
 pub use scene::{
-    BEHAVIOURS, BehaviourInfo, KeptState, PipelineWish, Ray, SCENE_EXTENSION, SCENES, Scene,
+    BEHAVIOURS, BehaviourInfo, KeptState, PipelineChoice, Ray, SCENE_EXTENSION, SCENES, Scene,
     SceneEntry, SceneEvent, SceneSnapshot, console, list_scenes, load_scene, load_scene_again,
     load_scene_within, overlays, plots, scene_names,
 };

@@ -44,11 +44,16 @@ impl Times {
 
 /// Draws one frame of the scene as it stands, and waits until the device is idle.
 pub fn draw(studio: &mut Studio, pipeline: &mut Pipeline) {
+    draw_at(studio, pipeline, SIZE);
+}
+
+/// The same, at another width and height.
+pub fn draw_at(studio: &mut Studio, pipeline: &mut Pipeline, size: (u32, u32)) {
     let (world, assets) = (&mut studio.scene.world, &studio.scene.assets);
     studio.renderer.set_frame_index(0);
     studio
         .renderer
-        .render(world, assets, pipeline, &studio.view, SIZE, 0.0)
+        .render(world, assets, pipeline, &studio.view, size, 0.0)
         .unwrap();
     let measured = studio.renderer.finish(60).unwrap();
     pipeline.grow(&measured);

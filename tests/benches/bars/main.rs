@@ -11,6 +11,7 @@ mod bar;
 mod by_hand;
 mod culling;
 mod frames;
+mod memory;
 mod peer;
 mod processor;
 mod sums;
@@ -27,12 +28,13 @@ const SIZE: (u32, u32) = (1280, 720);
 type Measurement = fn(&mut Bars);
 
 /// The measurements by name.
-const ALL: [(&str, Measurement); 6] = [
+const ALL: [(&str, Measurement); 7] = [
     ("by_hand", by_hand::run),
     ("sums", sums::run),
     ("culling", culling::run),
     ("processor", processor::run),
     ("peer", peer::run),
+    ("memory", memory::run),
     ("tracer", tracer::run),
 ];
 

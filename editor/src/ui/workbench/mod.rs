@@ -33,7 +33,7 @@ use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
 use lightbench::script::overlays::Overlays;
-use lightbench::script::{PipelineWish, Ray, Scene, SceneEvent};
+use lightbench::script::{PipelineChoice, Ray, Scene, SceneEvent};
 use lightbench::world::glam::Vec3;
 
 use self::camera::CameraRig;
@@ -351,7 +351,7 @@ impl Workbench {
         }
         if again {
             // Who works on a file has chosen what to look through.
-            scene.take_wish();
+            scene.take_pipeline_choice();
 
             self.clock.refresh();
             self.play_goes_on();
@@ -366,7 +366,7 @@ impl Workbench {
             if let Some(distance) = self.typical_distance() {
                 self.camera.suit(distance);
             }
-            self.grant_wish();
+            self.follow_pipeline_choice();
         }
         self.canvas.invalidate();
     }
@@ -383,7 +383,7 @@ impl Workbench {
         for line in scene.take_log() {
             self.log.add(Level::Script, Some(line.place), line.text);
         }
-        self.grant_wish();
+        self.follow_pipeline_choice();
         self.on_overlays(Overlays::follow);
         if let Err(problem) = result {
             self.ran_into_a_problem = true;
@@ -401,9 +401,12 @@ impl Workbench {
     }
 
     /// Swaps to the pipeline that the scene's scripts ask for.
-    fn grant_wish(&mut self) {
-        let wish = self.scenes.scene_mut().and_then(Scene::take_wish);
-        let Some(PipelineWish { name, settings }) = wish else {
+    fn follow_pipeline_choice(&mut self) {
+        let choice = self
+            .scenes
+            .scene_mut()
+            .and_then(Scene::take_pipeline_choice);
+        let Some(PipelineChoice { name, settings }) = choice else {
             return;
         };
         let before = self.pipelines.shown().map(str::to_owned);

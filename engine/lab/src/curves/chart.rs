@@ -2,8 +2,9 @@
 
 use lightbench_script::{Chart, ChartCurve};
 
+use super::drawing::{line, mark, plain, sheet, stroke, text, whisker};
 use super::linear_scale::LinearScale;
-use super::plot::{line, mark, number, plain, text};
+
 use super::scale::LogScale;
 use super::style::Style;
 use crate::report::html::writer::Writer;
@@ -58,35 +59,18 @@ pub fn chart(chart: &Chart) -> String {
     let y = Scale::holding(log_y, values.chain(ends().flatten().copied()), BOTTOM, TOP);
 
     let legend = TOP + ROW * chart.curves.len() as f64;
-    let (width, height) = (number(WIDTH), number(HEIGHT.max(legend + ROW)));
-    let view = format!("0 0 {width} {height}");
-    let attributes = [
-        ("xmlns", "http://www.w3.org/2000/svg"),
-        ("viewBox", view.as_str()),
-        ("width", &width),
-        ("height", &height),
-        (
-            "font-family",
-            "Helvetica, Arial, Liberation Sans, sans-serif",
-        ),
-        ("fill", "#1a1a1a"),
-    ];
-    let mut w = Writer::default();
-    w.element("svg", &attributes, |w| {
-        let whole = [("width", "100%"), ("height", "100%"), ("fill", "#ffffff")];
-        w.element("rect", &whole, |_| {});
+    sheet([WIDTH, HEIGHT.max(legend + ROW)], |w| {
         text(w, [LEFT, 28.0], 18, "start", &chart.title);
         axes(w, chart, &x, &y);
         for (index, curve) in chart.curves.iter().enumerate() {
             let style = Style::of(index);
             draw(w, curve, style, &x, &y);
             let at = TOP + 8.0 + ROW * index as f64;
-            path(w, &format!("M{} {at}h36", RIGHT + 24.0), style);
+            stroke(w, &format!("M{} {at}h36", RIGHT + 24.0), style);
             mark(w, [RIGHT + 42.0, at], style);
             text(w, [RIGHT + 70.0, at + 5.0], 14, "start", &curve.name);
         }
-    });
-    w.finish()
+    })
 }
 
 fn axes(w: &mut Writer, chart: &Chart, x: &Scale, y: &Scale) {
@@ -122,13 +106,11 @@ fn draw(w: &mut Writer, curve: &ChartCurve, style: Style, x: &Scale, y: &Scale) 
         let command = if index == 0 { 'M' } else { 'L' };
         format!("{command}{a:.1} {b:.1}")
     });
-    path(w, &steps.collect::<String>(), style);
+    stroke(w, &steps.collect::<String>(), style);
     for ([at, _], [low, high]) in places.iter().zip(&curve.intervals) {
         if low < high {
             let (low, high) = (y.at(*low), y.at(*high));
-            let left = at - 3.0;
-            let whisker = format!("M{at:.1} {low:.1}V{high:.1}m-3 0h6M{left:.1} {low:.1}h6");
-            line(w, &whisker, style.colour, 1.2);
+            whisker(w, *at, [low, high], style);
         }
     }
     if places.len() <= MOST_MARKS {
@@ -136,20 +118,6 @@ fn draw(w: &mut Writer, curve: &ChartCurve, style: Style, x: &Scale, y: &Scale) 
             mark(w, place, style);
         }
     }
-}
-
-/// A stroke in a curve's colour and dashes.
-fn path(w: &mut Writer, path: &str, style: Style) {
-    let attributes = [
-        ("d", path),
-        ("fill", "none"),
-        ("stroke", style.colour),
-        ("stroke-width", "2"),
-        ("stroke-dasharray", style.dashes),
-    ];
-    // Without dashes there is no such attribute.
-    let count = attributes.len() - usize::from(style.dashes.is_empty());
-    w.element("path", &attributes[..count], |_| {});
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! which it lost nothing and the first at which it did: see [`losses`].
 
 mod chart;
+mod drawing;
 mod linear_scale;
 pub mod losses;
 mod plot;

@@ -1,5 +1,6 @@
 //! Curves as an SVG picture with logarithmic axes.
 
+use super::drawing::{line, mark, plain, sheet, stroke, text, whisker};
 use super::scale::LogScale;
 use super::style::Style;
 use super::{Curve, Curves, End, Head};
@@ -30,31 +31,14 @@ pub fn plot(curves: &Curves) -> String {
     });
     let y = LogScale::holding(ends, BOTTOM, TOP);
 
-    let mut w = Writer::default();
-    let (width, height) = (number(WIDTH), number(HEIGHT));
-    let view = format!("0 0 {width} {height}");
-    let attributes = [
-        ("xmlns", "http://www.w3.org/2000/svg"),
-        ("viewBox", view.as_str()),
-        ("width", &width),
-        ("height", &height),
-        (
-            "font-family",
-            "Helvetica, Arial, Liberation Sans, sans-serif",
-        ),
-        ("fill", "#1a1a1a"),
-    ];
-    w.element("svg", &attributes, |w| {
-        let whole = [("width", "100%"), ("height", "100%"), ("fill", "#ffffff")];
-        w.element("rect", &whole, |_| {});
+    sheet([WIDTH, HEIGHT], |w| {
         heading(w, &curves.head);
         axes(w, curves, &x, &y);
         for (index, curve) in curves.curves.iter().enumerate() {
             draw(w, curve, Style::of(index), &x, &y);
         }
         legend(w, curves);
-    });
-    w.finish()
+    })
 }
 
 fn heading(w: &mut Writer, head: &Head) {
@@ -136,25 +120,11 @@ fn draw(w: &mut Writer, curve: &Curve, style: Style, x: &LogScale, y: &LogScale)
         let command = if index == 0 { 'M' } else { 'L' };
         format!("{command}{at:.1} {:.1}", y.at(gpu.median))
     });
-    let path: String = steps.collect();
-    let attributes = [
-        ("d", path.as_str()),
-        ("fill", "none"),
-        ("stroke", style.colour),
-        ("stroke-width", "2"),
-        ("stroke-dasharray", style.dashes),
-    ];
-    // Without dashes there is no such attribute.
-    let count = attributes.len() - usize::from(style.dashes.is_empty());
-    w.element("path", &attributes[..count], |_| {});
+    stroke(w, &steps.collect::<String>(), style);
     for (at, gpu) in &places {
         if let Some(interval) = gpu.median_interval {
             let (low, high) = (y.at(interval.low), y.at(interval.high));
-            let whisker = format!(
-                "M{at:.1} {low:.1}V{high:.1}m-3 0h6M{:.1} {low:.1}h6",
-                at - 3.0
-            );
-            line(w, &whisker, style.colour, 1.2);
+            whisker(w, *at, [low, high], style);
         }
         mark(w, [*at, y.at(gpu.median)], style);
     }
@@ -187,18 +157,7 @@ fn legend(w: &mut Writer, curves: &Curves) {
     for (row, (index, curve)) in order.into_iter().enumerate() {
         let style = Style::of(index);
         let (left, at) = (RIGHT + 36.0, TOP + 8.0 + ROW * row as f64);
-        let sample = [
-            ("d", format!("M{left} {at}h40")),
-            ("stroke", style.colour.to_owned()),
-            ("stroke-width", "2".to_owned()),
-            ("stroke-dasharray", style.dashes.to_owned()),
-        ];
-        let sample: Vec<(&str, &str)> = sample
-            .iter()
-            .filter(|(_, value)| !value.is_empty())
-            .map(|(name, value)| (*name, value.as_str()))
-            .collect();
-        w.element("path", &sample, |_| {});
+        stroke(w, &format!("M{left} {at}h40"), style);
         mark(w, [left + 20.0, at], style);
         let at_name = [left + 50.0, at + 5.0];
         let name = match curve
@@ -222,50 +181,6 @@ fn legend(w: &mut Writer, curves: &Curves) {
             );
         }
     }
-}
-
-pub(super) fn mark(w: &mut Writer, [x, y]: [f64; 2], style: Style) {
-    let place = format!("translate({x:.1} {y:.1})");
-    let attributes = [
-        ("d", style.shape),
-        ("transform", &place),
-        ("fill", style.fill),
-        ("stroke", style.colour),
-        ("stroke-width", "1.6"),
-    ];
-    w.element("path", &attributes, |_| {});
-}
-
-pub(super) fn line(w: &mut Writer, path: &str, colour: &str, width: f64) {
-    let width = number(width);
-    let attributes = [
-        ("d", path),
-        ("fill", "none"),
-        ("stroke", colour),
-        ("stroke-width", &width),
-    ];
-    w.element("path", &attributes, |_| {});
-}
-
-pub(super) fn text(w: &mut Writer, [x, y]: [f64; 2], size: u32, anchor: &str, text: &str) {
-    let (x, y, size) = (number(x), number(y), size.to_string());
-    let attributes = [
-        ("x", x.as_str()),
-        ("y", &y),
-        ("font-size", &size),
-        ("text-anchor", anchor),
-    ];
-    w.leaf("text", &attributes, text);
-}
-
-/// A coordinate with one decimal at most.
-pub(super) fn number(value: f64) -> String {
-    ((value * 10.0).round() / 10.0).to_string()
-}
-
-/// A tick without binary rounding.
-pub(super) fn plain(value: f64) -> String {
-    ((value * 1e9).round() / 1e9).to_string()
 }
 
 #[cfg(test)]

@@ -39,8 +39,9 @@ impl LogScale {
         self.from + (self.to - self.from) * share.clamp(0.0, 1.0)
     }
 
-    /// Round values on the axis, each with whether it should be labelled: the powers of ten, and 2 and
-    /// 5 times them where these are few.
+    /// Round values on the axis, each with whether it should be labelled: the powers of ten, where these
+    /// are few 2 and 5 times them, within one factor of ten all whole multiples, and within a factor of
+    /// two also what lies between those.
     pub fn ticks(&self) -> Vec<(f64, bool)> {
         let (first, last) = (
             self.low.log10().floor() as i32,
@@ -49,12 +50,20 @@ impl LogScale {
         let decades = (self.high / self.low).log10();
         let mut ticks = Vec::new();
         for power in first..=last {
-            for factor in 1..10 {
-                let value = f64::from(factor) * 10.0_f64.powi(power);
-                if (self.low..=self.high).contains(&value) {
-                    let labelled = factor == 1 || decades < 2.5 && (factor == 2 || factor == 5);
-                    ticks.push((value, labelled));
+            for tenths in 10..100 {
+                let value = f64::from(tenths) * 10.0_f64.powi(power - 1);
+                let whole = tenths % 10 == 0;
+                if !(self.low..=self.high).contains(&value) || !whole && decades >= 0.3 {
+                    continue;
                 }
+                let labelled = match tenths {
+                    10 => true,
+                    _ if decades < 0.1 => true,
+                    _ if decades < 0.3 => tenths % 5 == 0,
+                    20 | 50 => decades < 2.5,
+                    _ => decades < 1.0,
+                };
+                ticks.push((value, labelled));
             }
         }
         ticks
@@ -99,5 +108,17 @@ mod tests {
         };
         assert_eq!(labels(4.0, 120.0), [5.0, 10.0, 20.0, 50.0, 100.0]);
         assert_eq!(labels(1.0, 5000.0), [1.0, 10.0, 100.0, 1000.0]);
+        // However narrow the range, an axis has more than one label.
+        let near = |found: Vec<f64>, expected: &[f64]| {
+            let pairs = found.iter().zip(expected);
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            assert!(
+                pairs.clone().all(|(a, b)| (a - b).abs() < 1e-9),
+                "{found:?}"
+            );
+        };
+        near(labels(11.0, 42.0), &[20.0, 30.0, 40.0]);
+        near(labels(2.1, 3.3), &[2.5, 3.0]);
+        near(labels(0.21, 0.23), &[0.21, 0.22, 0.23]);
     }
 }

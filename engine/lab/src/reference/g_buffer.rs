@@ -8,6 +8,7 @@ use lightbench_assets::{Reflection, ReflectionModel};
 use super::brdf::LEAST_ROUGHNESS;
 use super::lighting::Surface;
 use super::normals::{decode_octahedral, encode_octahedral};
+use super::surface::surface_tangent;
 
 /// Steps of the tangent's angle in half a turn.
 const STEPS: f64 = 252.0;
@@ -96,22 +97,6 @@ fn unpack_tangent(model: u8, normal: DVec3) -> DVec3 {
     let step = model.saturating_sub(ReflectionModel::Ward as u8);
     let (sin, cos) = (f64::from(step) / STEPS * PI).sin_cos();
     cos * zero + sin * normal.cross(zero)
-}
-
-/// The part of a tangent that lies in the surface, as a unit vector; where nothing is left of it, any
-/// unit vector that lies there. Twin of the function in `shaders/lib/surface.wgsl`.
-pub fn surface_tangent(tangent: DVec3, normal: DVec3) -> DVec3 {
-    let along = tangent.try_normalize().unwrap_or(DVec3::Y);
-    let along = along - normal * normal.dot(along);
-    if along.length_squared() >= 1e-6 {
-        return along.normalize();
-    }
-    let axis = if normal.x.abs() > 0.7 {
-        DVec3::Y
-    } else {
-        DVec3::X
-    };
-    (axis - normal * normal.dot(axis)).normalize()
 }
 
 #[cfg(test)]

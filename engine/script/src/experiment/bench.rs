@@ -91,10 +91,7 @@ impl Bench {
         lock(&self.0.state).drawn = true;
         match self.undeclared(path).into_iter().next() {
             None => Ok(()),
-            Some(problem) => Err(Mistake {
-                message: problem.message,
-                hint: problem.hint,
-            }),
+            Some(problem) => Err(problem.into()),
         }
     }
 

@@ -10,14 +10,10 @@ use rhai::{Array, Dynamic, Map};
 use super::bench::Bench;
 use super::images::Image;
 use super::laboratory::Shot;
-use super::options::{Options, whole};
+use super::options::Options;
 use crate::api::{Api, Arguments, Mistake, ScriptType};
 use crate::math::text;
 
-/// Width and height in pixels, unless told.
-pub(super) const SIZE: [i64; 2] = [640, 360];
-/// The largest width and height that are asked of a device, which may refuse less.
-pub(super) const MOST_PIXELS: i64 = 32_768;
 /// The last frame: more than four hours.
 const LAST_FRAME: i64 = 1_000_000;
 
@@ -74,18 +70,12 @@ fn shot(arguments: &Arguments) -> Result<Shot, Mistake> {
         "draw",
         &["size", "frame", "scene", "pipeline"],
     )?;
-    let size = options.pair(
-        "size",
-        "width and height in pixels, as in `[320, 180]`",
-        |value| whole(value, 1, MOST_PIXELS),
-    )?;
-    let [width, height] = size.unwrap_or(SIZE).map(|side| side as u32);
     Ok(Shot {
         scene,
         scene_settings: options.settings("scene")?,
         pipeline,
         pipeline_settings: options.settings("pipeline")?,
-        size: (width, height),
+        size: options.size()?,
         frame: options.whole("frame", 0, LAST_FRAME)?.unwrap_or(0) as u32,
     })
 }
@@ -215,7 +205,7 @@ fn target(frame: Frame, arguments: &mut Arguments) -> Result<Image, Mistake> {
     };
     let number = |name: &str| {
         let number = options.whole(name, 0, i64::from(u32::MAX))?;
-        Ok(number.map(|number| number as u32))
+        Ok::<_, Mistake>(number.map(|number| number as u32))
     };
     let part = Part {
         slice: Slice {

@@ -3,9 +3,8 @@
 use rhai::{Array, Dynamic, Map};
 
 use super::bench::Bench;
-use super::frames::{MOST_PIXELS, SIZE};
 use super::laboratory::{Cost, Task, TimeSpan};
-use super::options::{Options, whole};
+use super::options::Options;
 use crate::api::{Api, Arguments, Mistake};
 use crate::settings::Settings;
 
@@ -53,19 +52,13 @@ fn task(arguments: &Arguments) -> Result<Task, Mistake> {
         "measure",
         &["frames", "warmup", "size", "scene"],
     )?;
-    let size = options.pair(
-        "size",
-        "width and height in pixels, as in `[320, 180]`",
-        |value| whole(value, 1, MOST_PIXELS),
-    )?;
-    let [width, height] = size.unwrap_or(SIZE).map(|side| side as u32);
     let frames = options.whole("frames", 1, MOST_FRAMES)?;
     let warmup = options.whole("warmup", 0, MOST_FRAMES)?;
     Ok(Task {
         scene: arguments.text(0)?,
         scene_settings: options.settings("scene")?,
         pipelines: pipelines(arguments)?,
-        size: (width, height),
+        size: options.size()?,
         warmup: warmup.unwrap_or(WARMUP) as u32,
         frames: frames.unwrap_or(FRAMES) as u32,
     })

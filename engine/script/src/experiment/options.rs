@@ -5,8 +5,13 @@ use rhai::{Dynamic, Map};
 
 use crate::api::{Arguments, Mistake, as_number};
 use crate::names::list;
-use crate::settings::{SettingValue, Settings};
+use crate::settings::Settings;
 use crate::spelling::spell;
+
+/// Width and height in pixels, unless told.
+const SIZE: [i64; 2] = [640, 360];
+/// The largest width and height that are asked of a device, which may refuse less.
+const MOST_PIXELS: i64 = 32_768;
 
 /// The options of one call.
 pub(super) struct Options<'a, 'b, 'c, 'v, 'd> {
@@ -100,6 +105,14 @@ impl<'a, 'b, 'c, 'v, 'd> Options<'a, 'b, 'c, 'v, 'd> {
         pair.map(Some).ok_or_else(|| self.wrong(name, wanted))
     }
 
+    /// The option `size`: width and height in pixels.
+    pub(super) fn size(&self) -> Result<(u32, u32), Mistake> {
+        let wanted = "width and height in pixels, as in `[320, 180]`";
+        let size = self.pair("size", wanted, |value| whole(value, 1, MOST_PIXELS))?;
+        let [width, height] = size.unwrap_or(SIZE).map(|side| side as u32);
+        Ok((width, height))
+    }
+
     /// `true` or `false`.
     pub(super) fn switch(&self, name: &str) -> Result<bool, Mistake> {
         let Some(value) = self.value(name) else {
@@ -124,9 +137,8 @@ impl<'a, 'b, 'c, 'v, 'd> Options<'a, 'b, 'c, 'v, 'd> {
 
     /// Values for parameters: a map of numbers, texts and switches.
     pub(super) fn settings(&self, name: &str) -> Result<Settings, Mistake> {
-        let mut settings = Settings::new();
         let Some(value) = self.value(name) else {
-            return Ok(settings);
+            return Ok(Settings::new());
         };
         let Some(map) = value.read_lock::<Map>() else {
             return Err(self.wrong(
@@ -134,21 +146,8 @@ impl<'a, 'b, 'c, 'v, 'd> Options<'a, 'b, 'c, 'v, 'd> {
                 "a map of values for parameters, as in `#{ lights: 64 }`",
             ));
         };
-        for (parameter, value) in map.iter() {
-            let number = as_number(value).map(SettingValue::Number);
-            let switch = || value.as_bool().ok().map(SettingValue::Switch);
-            let text = || value.clone().into_string().ok().map(SettingValue::Text);
-            let read = number.or_else(switch).or_else(text).ok_or_else(|| {
-                Mistake::new(format!(
-                    "`{parameter}` in `{name}` of `{}` must be a number, `true` or `false`, or a \
-                     text, not {}",
-                    self.call,
-                    self.arguments.describe(value)
-                ))
-            })?;
-            settings.set(parameter.as_str(), read);
-        }
-        Ok(settings)
+        let whose = format!("`{name}` of `{}`", self.call);
+        self.arguments.settings(&map, &whose)
     }
 
     /// The mistake of an option of the wrong kind.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::calls::{CALLS, OTHER_CALLS};
 use super::functions::wrapped;
-use crate::names::Entry;
+use crate::names::{Entry, Names};
 use crate::scene::scene_names;
 
 /// The heading of what all kinds of scripts have: it is registered before anybody names a section.
@@ -48,7 +48,7 @@ pub fn api() -> String {
                 forms.join(", "),
                 wrapped(entry.about)
             );
-            if let Some(example) = example(entry) {
+            if let Some(example) = example(&names, entry) {
                 let _ = write!(text, "\n```rhai\n{}\n```\n", example.replace("; ", ";\n"));
             }
         }
@@ -67,46 +67,8 @@ pub(super) fn form(entry: &Entry) -> String {
     format!("`{}{}`", entry.receiver.unwrap_or_default(), entry.form())
 }
 
-/// What makes an object of each type that shares names of members with others.
-const MAKERS: [(&str, &[&str]); 11] = [
-    (
-        "entity",
-        &[
-            "spawn",
-            "entity",
-            "point_light",
-            "spot_light",
-            "directional_light",
-            "ambient_light",
-            "camera",
-            "load_obj",
-            "load_model",
-        ],
-    ),
-    (
-        "matrix",
-        &[
-            "matrix",
-            "translation",
-            "rotation",
-            "scaling",
-            "perspective",
-            "view_matrix",
-        ],
-    ),
-    ("selection", &["entities"]),
-    ("column", &["column_of", "indices"]),
-    ("random", &["random"]),
-    ("material", &["material"]),
-    ("quat", &["turn", "turn_toward"]),
-    ("vec3", &["vec3"]),
-    ("color", &["rgb", "srgb", "hsv", "kelvin"]),
-    ("curve", &["curve"]),
-    ("mesh", &["mesh", "model_mesh"]),
-];
-
 /// A call that shows a function: the shortest of those that show it on an object of its type.
-pub(super) fn example(entry: &Entry) -> Option<&'static str> {
+pub(super) fn example(names: &Names, entry: &Entry) -> Option<&'static str> {
     let word = match (entry.property, entry.receiver) {
         (true, _) => format!(".{}", entry.name),
         (false, Some(_)) => format!(".{}(", entry.name),
@@ -131,22 +93,22 @@ pub(super) fn example(entry: &Entry) -> Option<&'static str> {
         let maker = |at: &usize| maker_of(call, *at);
         places
             .iter()
-            .any(|at| is_made_by(entry.receiver, maker(at)))
+            .any(|at| is_made_by(names, entry.receiver, maker(at)))
     };
     found
         .min_by_key(|(call, places)| (!on_its_type(call, places), call.len()))
         .map(|(call, _)| call)
 }
 
-/// Whether a function makes objects of a type. Types that share no names take any.
-fn is_made_by(receiver: Option<&str>, maker: &str) -> bool {
-    let Some(receiver) = receiver else {
-        return true;
-    };
-    match MAKERS.iter().find(|(known, _)| *known == receiver) {
-        Some((_, makers)) => makers.contains(&maker),
-        None => MAKERS.iter().all(|(_, makers)| !makers.contains(&maker)),
-    }
+/// Whether a plain function gives what a function is called on.
+fn is_made_by(names: &Names, receiver: Option<&str>, maker: &str) -> bool {
+    receiver.is_none_or(|receiver| {
+        let mut makers = names.entries().iter();
+        makers.any(|entry| {
+            let plain = entry.receiver.is_none() && entry.name == maker;
+            plain && names.given_by(entry) == receiver
+        })
+    })
 }
 
 /// The word with which the chain begins that stands before a place of a call, or that of the variable

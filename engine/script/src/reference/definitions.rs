@@ -87,7 +87,7 @@ fn text(what: &str, variables: &str, names: &Names) -> String {
             continue;
         }
         text.push('\n');
-        for line in about(entry).lines() {
+        for line in about(names, entry).lines() {
             let line = format!("/// {line}");
             let _ = writeln!(text, "{}", line.trim_end());
         }
@@ -97,7 +97,7 @@ fn text(what: &str, variables: &str, names: &Names) -> String {
         if entry.property && names.is_settable(entry) {
             let (name, receiver) = (&entry.name, entry.receiver.unwrap_or_default());
             let kind = names.given_by(entry);
-            for line in about(entry).lines() {
+            for line in about(names, entry).lines() {
                 let line = format!("/// {line}");
                 let _ = writeln!(text, "{}", line.trim_end());
             }
@@ -111,9 +111,9 @@ fn text(what: &str, variables: &str, names: &Names) -> String {
 }
 
 /// The text of a function, with a call that shows it.
-fn about(entry: &Entry) -> String {
+fn about(names: &Names, entry: &Entry) -> String {
     let mut text = wrapped(entry.about);
-    if let Some(example) = example(entry) {
+    if let Some(example) = example(names, entry) {
         let _ = write!(text, "\n```rhai\n{}\n```\n", example.replace("; ", ";\n"));
     }
     text

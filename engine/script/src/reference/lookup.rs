@@ -36,7 +36,7 @@ pub fn help(names: &Names, name: &str) -> Vec<Help> {
                 Help {
                     forms: vec![spelled],
                     about: entry.about.to_owned(),
-                    example: example(entry).map(str::to_owned),
+                    example: example(names, entry).map(str::to_owned),
                 },
             )),
         }

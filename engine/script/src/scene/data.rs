@@ -13,10 +13,10 @@ use super::behaviours::{AtWork, Message, Starting};
 use super::input::Input;
 use super::materials::Material;
 use super::models::Models;
+use super::pipeline_choice::Chosen;
 use super::plots::Plots;
 use super::recipes::Recipes;
 use super::state::{KeptBehaviour, State};
-use super::wishes::PipelineWish;
 use crate::api::{Mistake, ScriptType};
 use crate::limits::{Limits, Watch};
 use crate::log::Log;
@@ -46,10 +46,8 @@ pub(super) struct Data {
     pub(super) models: Models,
     /// What happens outside.
     pub(super) input: Input,
-    /// The pipeline that a script has asked for since somebody looked.
-    pub(super) wish: Option<PipelineWish>,
-    /// The last one, which is known to be good.
-    pub(super) wished: Option<PipelineWish>,
+    /// The pipeline that scripts have chosen.
+    pub(super) chosen: Chosen,
     /// What the scene's own script remembers.
     pub(super) state: State,
     /// What behaviours kept before, for those that begin now.
@@ -101,8 +99,7 @@ impl Stage {
             recipes: Recipes::default(),
             models: Models::default(),
             input: Input::default(),
-            wish: None,
-            wished: None,
+            chosen: Chosen::default(),
             state: State::default(),
             kept: Vec::new(),
             messages: Vec::new(),

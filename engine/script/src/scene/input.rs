@@ -55,12 +55,16 @@ pub(super) struct Input {
     pub(super) was_asked: bool,
 }
 
-/// The names of keys, beside letters and digits.
-const NAMED: [&str; 23] = [
+/// The names of keys, beside letters, digits and `f1` to `f35`.
+const NAMED: [&str; 50] = [
     "space",
     "enter",
     "tab",
     "escape",
+    "left",
+    "right",
+    "up",
+    "down",
     "backspace",
     "delete",
     "insert",
@@ -68,18 +72,41 @@ const NAMED: [&str; 23] = [
     "end",
     "pageup",
     "pagedown",
-    "left",
-    "right",
-    "up",
-    "down",
     "comma",
     "period",
+    "colon",
+    "semicolon",
     "minus",
     "plus",
     "equals",
-    "semicolon",
     "slash",
     "backslash",
+    "pipe",
+    "quote",
+    "backtick",
+    "questionmark",
+    "exclamationmark",
+    "openbracket",
+    "closebracket",
+    "opencurlybracket",
+    "closecurlybracket",
+    "shiftleft",
+    "shiftright",
+    "controlleft",
+    "controlright",
+    "altleft",
+    "altright",
+    "superleft",
+    "superright",
+    "intlbackslash",
+    "capslock",
+    "numlock",
+    "scrolllock",
+    "printscreen",
+    "pause",
+    "menu",
+    "help",
+    "clear",
 ];
 
 /// The name of a key in lower case.
@@ -87,7 +114,11 @@ fn key_name(a: &Arguments) -> Result<String, Mistake> {
     let key = a.text(0)?.to_lowercase();
     let mut letters = key.chars();
     let single = letters.next().is_some_and(char::is_alphanumeric) && letters.next().is_none();
-    if single || NAMED.contains(&key.as_str()) {
+    let function = key.strip_prefix('f').and_then(|number| number.parse().ok());
+    if single
+        || NAMED.contains(&key.as_str())
+        || function.is_some_and(|n: u8| (1..=35).contains(&n))
+    {
         return Ok(key);
     }
     let mistake = Mistake::new(format!("there is no key `{key}`"));

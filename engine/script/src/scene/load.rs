@@ -13,8 +13,8 @@ use super::script::OwnScript;
 use super::state::{KeptState, State};
 use super::{
     Read, SCENES, Scene, behaviours, bounds, cameras, columns, curves, entities, fields, input,
-    lights, materials, models, motion, picking, plots, saved, selection, shapes, state, tags,
-    textures, wishes,
+    lights, materials, models, motion, picking, pipeline_choice, plots, saved, selection, shapes,
+    state, tags, textures,
 };
 use crate::host::{Extras, Host, find};
 use crate::limits::Limits;
@@ -196,7 +196,7 @@ pub(super) fn host(
                 api.section("State");
                 state::register(api);
                 api.section("The pipeline");
-                wishes::register(api, &made);
+                pipeline_choice::register(api, &made);
                 fields::register(api, &made);
                 tags::register(api, &made);
                 selection::register(api, &made);

@@ -20,6 +20,7 @@ mod models;
 mod motion;
 pub mod overlays;
 mod picking;
+mod pipeline_choice;
 pub mod plots;
 mod recipes;
 mod reflection;
@@ -33,7 +34,6 @@ mod tables;
 mod tags;
 mod textures;
 mod values;
-mod wishes;
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -60,11 +60,11 @@ pub use input::SceneEvent;
 pub use list::{SceneEntry, list_scenes};
 pub use load::{load_scene, load_scene_again, load_scene_within, scene_names};
 pub use picking::Ray;
+pub use pipeline_choice::PipelineChoice;
 pub use saved::EXTENSION as SCENE_EXTENSION;
 pub use snapshot::SceneSnapshot;
 pub use state::KeptState;
 pub(crate) use values::expected as field_takes;
-pub use wishes::PipelineWish;
 
 /// The folder of the scene files.
 pub const SCENES: &str = "scripts/scenes";
@@ -227,9 +227,9 @@ impl Scene {
         self.script.hears_keys() || self.behaviours.hear_keys() || self.stage.lock().input.was_asked
     }
 
-    /// The pipeline that its scripts have asked for since the last call.
-    pub fn take_wish(&mut self) -> Option<PipelineWish> {
-        self.stage.lock().wish.take()
+    /// The pipeline that its scripts have chosen since the last call.
+    pub fn take_pipeline_choice(&mut self) -> Option<PipelineChoice> {
+        self.stage.lock().chosen.new.take()
     }
 
     /// The behaviours of its entities, in the order in which they began.

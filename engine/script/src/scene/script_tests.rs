@@ -162,13 +162,16 @@ fn a_script_asks_for_a_pipeline() {
         "use_pipeline(\"tiled_forward\", #{ tile_size: \"16\", exposure: 2 });
         fn update() { use_pipeline(\"deferred_shading\"); }",
     );
-    let wish = scene.take_wish().unwrap();
-    assert_eq!(wish.name, "tiled_forward");
-    let exposure = wish.settings.get("exposure").map(ToString::to_string);
+    let choice = scene.take_pipeline_choice().unwrap();
+    assert_eq!(choice.name, "tiled_forward");
+    let exposure = choice.settings.get("exposure").map(ToString::to_string);
     assert_eq!(exposure.as_deref(), Some("2"));
-    assert_eq!(scene.take_wish(), None);
+    assert_eq!(scene.take_pipeline_choice(), None);
     scene.update(0.1, 0.1).unwrap();
-    assert_eq!(scene.take_wish().unwrap().name, "deferred_shading");
+    assert_eq!(
+        scene.take_pipeline_choice().unwrap().name,
+        "deferred_shading"
+    );
     let (_folder, files) = project(&[(
         "scripts/scenes/test.rhai",
         "use_pipeline(\"tiled_foward\");",
@@ -213,7 +216,7 @@ fn a_key_that_there_is_not_is_refused() {
     for (key, hint) in [
         ("ArrowLeft", "did you mean `left`?"),
         ("spcae", "did you mean `space`?"),
-        ("shift", "keys are letters and digits"),
+        ("hyper", "keys are letters and digits"),
     ] {
         let text = format!("key_down(\"{key}\");");
         let (_folder, files) = project(&[("scripts/scenes/test.rhai", &text)]);

@@ -10,7 +10,7 @@ use lightbench_world::{Entity, Snapshot};
 use rhai::{Map, Scope};
 
 use super::Scene;
-use super::behaviours::{KeptBehaviours, Message};
+use super::behaviours::{BehavioursSnapshot, Message};
 use super::data::Data;
 use super::materials::Material;
 use super::models::Models;
@@ -22,8 +22,8 @@ use crate::random::RowPlaces;
 pub struct SceneSnapshot {
     world: Snapshot,
     assets: Assets,
-    data: KeptData,
-    behaviours: KeptBehaviours,
+    data: DataSnapshot,
+    behaviours: BehavioursSnapshot,
     /// Where the rows of random numbers stood.
     rows: RowPlaces,
     /// Variables of the console.
@@ -38,7 +38,7 @@ impl std::fmt::Debug for SceneSnapshot {
 }
 
 /// What the functions of scripts work on, beside the world and the assets.
-struct KeptData {
+struct DataSnapshot {
     recipes: Recipes,
     models: Models,
     messages: Vec<Message>,
@@ -52,7 +52,7 @@ struct KeptData {
     plots: Plots,
 }
 
-impl KeptData {
+impl DataSnapshot {
     fn of(data: &Data) -> Self {
         let material = |(id, material): (&MaterialId, &Material)| {
             let flags = material.flags().map(|flag| flag.load(Ordering::Relaxed));
@@ -108,7 +108,7 @@ impl Scene {
         SceneSnapshot {
             world: self.world.snapshot(),
             assets: self.assets.clone(),
-            data: KeptData::of(&self.stage.lock()),
+            data: DataSnapshot::of(&self.stage.lock()),
             behaviours: self.behaviours.keep(),
             rows: self.host.rows.places(),
             console: self.console.clone(),

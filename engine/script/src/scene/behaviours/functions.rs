@@ -20,13 +20,7 @@ pub(crate) fn register(api: &mut Api, stage: &Stage) {
                  behaviour; another takes its place.";
     for form in ["behave(name)", "behave(name, values)"] {
         method(api, stage, form, about, |data, entity, a| {
-            let path = find(&data.files, BEHAVIOURS, &a.text(0)?).map_err(|problem| {
-                let mistake = Mistake::new(problem.message);
-                match problem.hint {
-                    Some(hint) => mistake.with_hint(hint),
-                    None => mistake,
-                }
-            })?;
+            let path = find(&data.files, BEHAVIOURS, &a.text(0)?)?;
             let behaviour = Behaviour {
                 script: path,
                 parameters: parameters(a)?,

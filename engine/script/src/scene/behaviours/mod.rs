@@ -6,7 +6,7 @@
 //! `on_message` when something happens. All of them see the entity as `me`.
 
 mod functions;
-mod kept;
+mod snapshot;
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -25,7 +25,7 @@ use crate::host::{Host, Variables};
 use crate::parameters::{SceneParameter, undeclared};
 use crate::settings::{SettingValue, Settings};
 pub(super) use functions::register;
-pub(super) use kept::KeptBehaviours;
+pub(super) use snapshot::BehavioursSnapshot;
 
 /// The folder of the behaviours.
 pub const BEHAVIOURS: &str = "scripts/behaviours";

@@ -8,7 +8,7 @@ use crate::host::Host;
 use crate::scene::state::State;
 
 /// Behaviours at one moment.
-pub(in crate::scene) struct KeptBehaviours {
+pub(in crate::scene) struct BehavioursSnapshot {
     /// Each with what it remembered.
     instances: Vec<(Instance, Map)>,
     free: Vec<usize>,
@@ -18,9 +18,9 @@ pub(in crate::scene) struct KeptBehaviours {
 
 impl Behaviours {
     /// Takes note of everything.
-    pub(in crate::scene) fn keep(&self) -> KeptBehaviours {
+    pub(in crate::scene) fn keep(&self) -> BehavioursSnapshot {
         let kept = |instance: &Instance| (instance.clone(), instance.state.contents());
-        KeptBehaviours {
+        BehavioursSnapshot {
             instances: self.instances.iter().map(kept).collect(),
             free: self.free.clone(),
             slots: self.slots,
@@ -29,7 +29,7 @@ impl Behaviours {
     }
 
     /// Makes everything as it was.
-    pub(in crate::scene) fn restore(&mut self, host: &mut Host, kept: &KeptBehaviours) {
+    pub(in crate::scene) fn restore(&mut self, host: &mut Host, kept: &BehavioursSnapshot) {
         self.instances.clear();
         self.places.clear();
         for (instance, contents) in &kept.instances {
