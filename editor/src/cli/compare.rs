@@ -198,6 +198,7 @@ fn describe(
         size: [arguments.size.width, arguments.size.height],
         frames: measured.frames,
         warmup_frames: arguments.warmup,
+        processes: Vec::new(),
         reference,
         parameters: parameters.collect(),
         seeds: Vec::new(),

@@ -48,6 +48,7 @@ pub mod reference;
 pub mod report;
 pub mod shown;
 pub mod statistics;
+pub mod study;
 pub mod tracer;
 
 pub use error::LabError;

@@ -2,6 +2,7 @@
 
 use super::model::{Comparison, PipelineResult};
 use crate::statistics::{Bootstrap, CONFIDENCE, Interval, Summary, ratio_of_medians};
+use crate::study::Study;
 
 /// Times within this share of each other count as the same.
 pub const MARGIN: f64 = 0.05;
@@ -60,6 +61,14 @@ pub struct Analysis {
     pub against_fastest: Vec<Option<Ratio>>,
     /// Confidence level of each ratio's interval: 95 % for all pairs together (Bonferroni).
     pub ratio_level: f64,
+}
+
+/// Analyses every point of a study. The corrections are for all pairs of all points together.
+pub fn of_study(study: &Study) -> Vec<Analysis> {
+    let points = study.points.iter();
+    points
+        .map(|point| Analysis::of(&point.comparison))
+        .collect()
 }
 
 impl Analysis {

@@ -17,6 +17,6 @@ mod write;
 
 pub use model::{
     AbilityResult, Adapter, Comparison, CounterResult, Input, Machine, Parameter, PassResult,
-    PipelineResult, SCHEMA, Seed, SystemResult, TargetResult,
+    PipelineResult, ProcessRecord, SCHEMA, Seed, SystemResult, TargetResult,
 };
 pub use write::{ReportFiles, read_json, to_json, write_report};

@@ -33,10 +33,13 @@ pub struct Comparison {
     pub adapter: Adapter,
     /// Width and height of the pictures in pixels.
     pub size: [u32; 2],
-    /// Frames measured of each pipeline.
+    /// Frames measured of each pipeline in each process.
     pub frames: u32,
-    /// Frames drawn before, and not measured.
+    /// Frames drawn before at the least, and not measured.
     pub warmup_frames: u32,
+    /// The processes that measured, in order. Empty in reports of versions that measured in one.
+    #[serde(default)]
+    pub processes: Vec<ProcessRecord>,
     /// Name of the pipeline that the others are compared with.
     pub reference: String,
     /// Parameters of the whole comparison, such as the scene's.
@@ -63,6 +66,23 @@ pub struct Machine {
     pub memory_bytes: u64,
     /// Operating system with its version.
     pub os: String,
+}
+
+/// One process that measured all pipelines in turn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProcessRecord {
+    /// Counted from 0.
+    pub index: u32,
+    /// When it began to measure, RFC 3339.
+    pub started: String,
+    /// Seconds that measuring took, without loading and compiling.
+    pub seconds: f64,
+    /// How many programs wanted a core at a time, over the minute before; absent where the system
+    /// does not tell.
+    pub load_average: Option<f64>,
+    /// Clock of the processor's cores in the mean when it began, in MHz; absent where the system does
+    /// not tell.
+    pub processor_mhz: Option<f64>,
 }
 
 /// The graphics adapter that drew.
@@ -124,8 +144,25 @@ pub struct PipelineResult {
     pub parameters: Vec<Parameter>,
     /// Features and limits of the adapter that it needs beyond the default ones.
     pub features_needed: Vec<String>,
-    /// CPU time of each measured frame in milliseconds, in order.
+    /// CPU time of each measured frame in milliseconds, in order, process after process.
     pub frame_cpu_ms: Vec<f64>,
+    /// How many of the frames each process measured, in order. Empty where one process measured all.
+    #[serde(default)]
+    pub process_frames: Vec<u32>,
+    /// Frames that each process drew until the times had settled, in order.
+    #[serde(default)]
+    pub settled_after: Vec<u32>,
+    /// Whether fewer frames than asked for were measured, since the time for a point was up.
+    #[serde(default)]
+    pub cut: bool,
+    /// Time of each measured frame from its first line of code until the device had finished it, in
+    /// milliseconds.
+    #[serde(default)]
+    pub frame_wall_ms: Vec<f64>,
+    /// The same of frames whose passes were not timed, in order, process after process. What the
+    /// queries themselves cost is the difference.
+    #[serde(default)]
+    pub unqueried_wall_ms: Vec<f64>,
     /// GPU time of each measured frame in milliseconds, in order; absent where the adapter has no
     /// timestamps.
     pub frame_gpu_ms: Option<Vec<f64>>,
@@ -329,6 +366,21 @@ impl PipelineResult {
         self.frame_gpu_ms
             .as_deref()
             .filter(|s| s.iter().any(|v| v.is_finite()))
+    }
+
+    /// A series of the measured frames, cut into those of each process.
+    pub fn by_process<'a>(&self, series: &'a [f64]) -> Vec<&'a [f64]> {
+        if self.process_frames.is_empty() {
+            return vec![series];
+        }
+        let mut rest = series;
+        let mut parts = Vec::with_capacity(self.process_frames.len());
+        for frames in &self.process_frames {
+            let (part, after) = rest.split_at((*frames as usize).min(rest.len()));
+            parts.push(part);
+            rest = after;
+        }
+        parts
     }
 
     /// The name for people, or the plain name where there is none.

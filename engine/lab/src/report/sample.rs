@@ -173,6 +173,7 @@ pub fn with(pipelines: Vec<PipelineResult>) -> Comparison {
         size: [160, 90],
         frames: 60,
         warmup_frames: 20,
+        processes: vec![],
         reference: pipelines.first().map_or_else(String::new, |p| p.name.clone()),
         parameters: vec![Parameter { name: "lights".into(), value: "64".into() }],
         seeds: vec![Seed { name: "scene".into(), value: 7 }],
