@@ -59,6 +59,18 @@ impl GpuArguments {
             portable: self.portable,
         }
     }
+
+    /// The same arguments for another process.
+    pub fn again(&self) -> Vec<std::ffi::OsString> {
+        let mut again = Vec::new();
+        if let Some(adapter) = &self.adapter {
+            again.extend(["--adapter".into(), adapter.into()]);
+        }
+        if self.portable {
+            again.push("--portable".into());
+        }
+        again
+    }
 }
 
 /// What a scene is filled with.

@@ -60,6 +60,7 @@ pub fn run(arguments: &FrameArguments, mut files: Files) -> anyhow::Result<()> {
         size: arguments.size.into(),
         warmup: 3,
         frames: arguments.frames + 1,
+        ..MeasureOptions::default()
     };
     let bar = Bar::follow(&progress);
     let measured = measure(

@@ -14,11 +14,12 @@ use lightbench::lab::report::{Adapter, Machine};
 use lightbench::render::{Gpu, Renderer};
 
 use super::arguments::{GpuArguments, SceneArguments, Size};
-use super::compare;
 use super::load::{self, Request};
 use super::progress::{Bar, stop_on_ctrl_c};
 use super::project;
 use super::report::{self, Stopped, Usage, say, warn};
+use super::study::plan::chosen;
+use super::study::{now, scene_name, this_command};
 
 /// Arguments of `lightbench bench pipelines`.
 #[derive(Args, Debug)]
@@ -94,7 +95,7 @@ pub fn run(arguments: &PipelinesArguments, mut files: Files) -> anyhow::Result<(
     let Values { parameter, values } = &arguments.sweep;
     let place = |extension: &str| arguments.out.join(parameter).with_extension(extension);
     project::writable(&place("csv"))?;
-    let pipelines = compare::chosen(&arguments.pipelines, &files)?;
+    let pipelines = chosen(&arguments.pipelines, &files)?;
     let request = Request {
         scene: &arguments.scene,
         arguments: &arguments.scene_arguments,
@@ -118,6 +119,7 @@ pub fn run(arguments: &PipelinesArguments, mut files: Files) -> anyhow::Result<(
             size: arguments.size.into(),
             warmup: arguments.warmup,
             frames: arguments.frames,
+            ..MeasureOptions::default()
         },
         patience: arguments.patience,
     };
@@ -142,7 +144,7 @@ pub fn run(arguments: &PipelinesArguments, mut files: Files) -> anyhow::Result<(
     let settings = wanted.settings.iter();
     let curves = Curves {
         head: Head {
-            scene: compare::scene_name(&wanted.scene),
+            scene: scene_name(&wanted.scene),
             settings: settings
                 .map(|(name, value)| format!("{name}={value}"))
                 .collect(),
@@ -153,8 +155,8 @@ pub fn run(arguments: &PipelinesArguments, mut files: Files) -> anyhow::Result<(
             size: arguments.size.into(),
             frames: arguments.frames,
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            command: compare::this_command(),
-            created: compare::now(),
+            command: this_command(),
+            created: now(),
         },
         curves: swept.curves,
     };

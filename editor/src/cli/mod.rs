@@ -24,6 +24,7 @@ mod report;
 mod run;
 mod save;
 mod settings;
+mod study;
 mod trace;
 
 use std::path::PathBuf;
@@ -78,8 +79,13 @@ enum Command {
     Inspect(inspect::Arguments),
     /// Runs an experiment: a script that draws frames, looks into them and says what it found
     Run(run::Arguments),
-    /// Measures pipelines on one scene and writes a report
+    /// Measures pipelines on scenes and writes a report
     Compare(compare::Arguments),
+    /// Makes one report of the shares that several machines measured
+    Merge(study::merge::Arguments),
+    /// Measures for `compare`, which starts it
+    #[command(hide = true)]
+    StudyWorker(study::worker::Arguments),
     /// Says how far apart two pictures are
     Diff(diff::Arguments),
     /// Writes a scene to a file that holds its entities instead of a script
@@ -147,6 +153,8 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Inspect(arguments) => inspect::run(&arguments, files()?),
         Command::Run(arguments) => run::run(&arguments, files()?),
         Command::Compare(arguments) => compare::run(&arguments, files()?),
+        Command::Merge(arguments) => study::merge::run(&arguments),
+        Command::StudyWorker(arguments) => study::worker::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),
         Command::Export(arguments) => export::run(&arguments, files()?),

@@ -55,6 +55,7 @@ fn replaced_reflection_models_are_counted_in_the_notes() {
         size: (48, 27),
         warmup: 1,
         frames: 3,
+        ..MeasureOptions::default()
     };
     let (renderer, scene) = (&mut renderer, &mut scene);
     let measured = measure(renderer, scene, &mut pipelines, options, &Progress::new()).unwrap();
@@ -79,6 +80,7 @@ fn every_frame_of_every_pipeline_is_measured_at_the_same_moments() {
         size: (48, 27),
         warmup: 1,
         frames: 5,
+        ..MeasureOptions::default()
     };
     let progress = Progress::new();
     let measured = measure(
@@ -127,12 +129,12 @@ fn every_frame_of_every_pipeline_is_measured_at_the_same_moments() {
             assert!(result.gpu_why_not.is_some());
         }
 
-        // The picture is that of the last frame, as a capture takes it from a fresh scene.
+        // The picture is that of the first frame, as a capture takes it from a fresh scene.
         let mut fresh = load_scene(&files, "moving", &Settings::new(), &progress).unwrap();
         let (mut other, _, mut again) = stage(&[result.name.as_str()], &files);
         let options = CaptureOptions {
             size: (48, 27),
-            frame: 4,
+            frame: 0,
         };
         let picture = capture(&mut other, &mut fresh, &mut again[0], options, &progress).unwrap();
         assert_eq!(result.picture.as_ref().unwrap(), &picture.output);
@@ -150,6 +152,7 @@ fn what_was_measured_before_a_stop_is_kept() {
         size: (16, 9),
         warmup: 0,
         frames: FRAMES,
+        ..MeasureOptions::default()
     };
     let progress = Progress::new();
     let seen = progress.clone();
@@ -242,6 +245,7 @@ fn lights_without_a_place_in_an_array_are_reported() {
         size: (48, 27),
         warmup: 0,
         frames: 2,
+        ..MeasureOptions::default()
     };
     let progress = Progress::new();
     let measured = measure(

@@ -129,6 +129,8 @@ pub struct Queries {
     resolve: wgpu::Buffer,
     ring: Vec<Slot>,
     current: Option<usize>,
+    /// Whether frames are measured.
+    enabled: bool,
     period_ns: f64,
     /// What came back last, and the memory of what came before.
     found: Vec<Measured>,
@@ -173,15 +175,22 @@ impl Queries {
                 })
                 .collect(),
             current: None,
+            enabled: true,
             period_ns: f64::from(gpu.queue.get_timestamp_period()),
             found: Vec::with_capacity(RING),
             spare: (0..RING).map(|_| Measured::with_room()).collect(),
         }
     }
 
+    /// Whether the frames that begin from now on are measured.
+    pub fn enable(&mut self, enabled: bool) {
+        self.enabled = enabled;
+    }
+
     /// Begins a frame. Without a free buffer the frame is not measured.
     pub fn begin(&mut self, frame: u32, passes: impl Iterator<Item = Measure>, counters: usize) {
-        let measurable = self.timestamps.is_some() || self.statistics.is_some() || counters > 0;
+        let available = self.timestamps.is_some() || self.statistics.is_some() || counters > 0;
+        let measurable = self.enabled && available;
         let free = self
             .ring
             .iter()

@@ -377,6 +377,13 @@ impl Renderer {
         &mut self.inspector
     }
 
+    /// Whether the passes of the frames from now on are timed and their fragments and counters counted,
+    /// as they are at first. Without, a frame costs what it costs where nobody measures, and
+    /// [`Renderer::finish`] has nothing of it; nor is it told then that a buffer was too small.
+    pub fn enable_queries(&mut self, enabled: bool) {
+        self.queries.enable(enabled);
+    }
+
     /// The number that the next frame will have in [`Measured::frame`].
     pub fn next_frame(&self) -> u32 {
         self.serial

@@ -128,6 +128,17 @@ impl Files {
         self.project.as_deref()
     }
 
+    /// The folders that were let in, in the order of the numbers in their paths.
+    #[must_use]
+    pub fn grants(&self) -> &[PathBuf] {
+        &self.grants
+    }
+
+    /// Lets in the folders that other files had let in, under the same numbers.
+    pub fn grant_again(&mut self, folders: &[PathBuf]) {
+        self.grants = folders.to_vec();
+    }
+
     /// Lets in a file that the user named, and what lies beside and below it
     /// (an OBJ needs its materials and pictures). Returns the path for
     /// [`Files::read`]: the usual one for a file of the project, one that

@@ -37,6 +37,7 @@ impl Workbench {
             size: task.size,
             warmup: task.warmup,
             frames: task.frames,
+            ..MeasureOptions::default()
         };
         let Some(Device { renderer, .. }) = &mut self.device else {
             return Err(LaboratoryError::Other("no device is open".to_owned()));

@@ -45,6 +45,19 @@ pub fn load_average() -> Option<f64> {
     (average > 0.0).then_some(average)
 }
 
+/// The clock of the processor's cores in the mean, in MHz; `None` where the system does not tell.
+pub fn processor_mhz() -> Option<f64> {
+    let mut system = System::new();
+    system.refresh_cpu_list(sysinfo::CpuRefreshKind::nothing().with_frequency());
+    let clocks: Vec<f64> = system
+        .cpus()
+        .iter()
+        .map(|cpu| cpu.frequency() as f64)
+        .filter(|mhz| *mhz > 0.0)
+        .collect();
+    (!clocks.is_empty()).then(|| clocks.iter().sum::<f64>() / clocks.len() as f64)
+}
+
 impl From<&AdapterSummary> for Adapter {
     fn from(summary: &AdapterSummary) -> Self {
         Self {

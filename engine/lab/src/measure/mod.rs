@@ -1,7 +1,7 @@
 //! Measuring pipelines on one scene.
 //!
-//! All pipelines are compiled and warmed up first. Then each moment of the scene is drawn by every
-//! pipeline in turn before the scene moves on, so that a machine that grows warm or busy slows all
+//! All pipelines draw their picture and are warmed up first. Then each moment of the scene is drawn by
+//! every pipeline in turn before the scene moves on, so that a machine that grows warm or busy slows all
 //! of them alike. Who begins changes from frame to frame, because the first one uploads what moved.
 
 mod inputs;
@@ -9,6 +9,7 @@ mod machine;
 mod series;
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use lightbench_assets::{Cancelled, Progress};
 use lightbench_render::gpu::GpuError;
@@ -17,37 +18,71 @@ use lightbench_render::{FrameStatistics, Pipeline, Problem, RenderError, Rendere
 use lightbench_script::Scene;
 
 pub use inputs::Inputs;
-pub use machine::{load_average, resident_bytes};
+pub use machine::{load_average, processor_mhz, resident_bytes};
 
-use crate::HdrImage;
 use crate::capture::{STEP, draw, read_hdr, read_output};
 use crate::report::PipelineResult;
+use crate::{HdrImage, LdrImage};
 use series::{Missing, Series};
 
 /// Seconds after which a frame counts as hung.
 const TIMEOUT: u64 = 60;
 /// How often a frame is drawn before a pipeline's buffers must be large enough.
 const MOST_ATTEMPTS: usize = 4;
+/// Two frames that differ by less than this share have the same time.
+const SETTLED: f64 = 0.05;
+/// How many frames a warm-up is prolonged by at most.
+const MOST_UNTIL_SETTLED: u32 = 6;
+/// The share of a pipeline's time that a warm-up may be prolonged to.
+const WARMING: f64 = 0.3;
 
 /// How to measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasureOptions {
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// Frames drawn first by each pipeline and not measured. The scene stands still meanwhile.
+    /// Frames drawn first by each pipeline and not measured, at the least. The scene stands still
+    /// meanwhile.
     pub warmup: u32,
-    /// Frames measured of each pipeline; the scene moves by [`STEP`] between them.
+    /// Whether more of them are drawn until the times have settled.
+    pub settle: bool,
+    /// Frames measured of each pipeline; the scene moves by `step` between them.
     pub frames: u32,
+    /// Seconds that the scene moves on between two frames.
+    pub step: f64,
+    /// Frames that the scene moves on before the first is drawn.
+    pub start: u32,
+    /// Whether after every second frame one is drawn whose passes are not timed, so that the cost of
+    /// the queries is known.
+    pub unqueried: bool,
+    /// Seconds for each pipeline. A frame that would end later is not begun, but one is always
+    /// measured.
+    pub seconds: f64,
+}
+
+impl Default for MeasureOptions {
+    fn default() -> Self {
+        Self {
+            size: (640, 360),
+            warmup: 1,
+            settle: false,
+            frames: 6,
+            step: STEP,
+            start: 0,
+            unqueried: false,
+            seconds: f64::INFINITY,
+        }
+    }
 }
 
 /// What came out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
-    /// One result a pipeline, in the order given, each with its picture of the last frame.
+    /// One result a pipeline, in the order given, each with its picture of the first frame.
     pub pipelines: Vec<PipelineResult>,
     /// The same pictures in linear light, by the pipeline's name, where it names such a target.
     pub linear: BTreeMap<String, HdrImage>,
-    /// Frames measured of each pipeline: fewer than asked for where it was stopped.
+    /// Frames measured of the pipeline that has the most: fewer than asked for where it was stopped.
     pub frames: u32,
 }
 
@@ -86,63 +121,227 @@ pub fn measure(
     options: MeasureOptions,
     progress: &Progress,
 ) -> Result<Measurement, MeasureError> {
-    let frames = options.frames.max(1);
-    let share = |done: u32| done as f32 / (options.warmup + frames) as f32;
-    for done in 0..options.warmup {
-        for pipeline in &mut *pipelines {
-            let label = format!("warming up {}", pipeline.desc.name);
-            progress.begin(label, share(done))?;
-            draw_and_wait(renderer, scene, pipeline, options.size, 0)?;
+    let mut bench = Bench::new(renderer, scene, pipelines, options, progress);
+    for frame in 1..=options.start {
+        progress.begin("moving the scene to its start", 0.0)?;
+        bench.step(frame)?;
+    }
+    let pictures = bench.pictures()?;
+    bench.warm_up()?;
+    bench.measure()?;
+    bench.finish(pictures)
+}
+
+/// Measuring under way.
+struct Bench<'a> {
+    renderer: &'a mut Renderer,
+    scene: &'a mut Scene,
+    pipelines: &'a mut [Pipeline],
+    options: MeasureOptions,
+    progress: &'a Progress,
+    /// Of each pipeline.
+    series: Vec<Series>,
+    clocks: Vec<Clock>,
+    measured: u32,
+}
+
+/// A picture as a display shows it, and in linear light where there is such a target.
+type Pictures = Vec<(LdrImage, Option<HdrImage>)>;
+
+/// What a pipeline may still take.
+#[derive(Clone, Debug, Default)]
+struct Clock {
+    spent: f64,
+    last: f64,
+    /// Times of the frames of the warm-up.
+    warming: Vec<f64>,
+}
+
+impl Clock {
+    fn add(&mut self, seconds: f64) {
+        self.spent += seconds;
+        self.last = seconds;
+    }
+
+    /// Whether the last two frames took the same time.
+    fn has_settled(&self) -> bool {
+        matches!(self.warming[..], [.., a, b] if (a - b).abs() <= SETTLED * a.min(b))
+    }
+}
+
+impl<'a> Bench<'a> {
+    fn new(
+        renderer: &'a mut Renderer,
+        scene: &'a mut Scene,
+        pipelines: &'a mut [Pipeline],
+        mut options: MeasureOptions,
+        progress: &'a Progress,
+    ) -> Self {
+        options.frames = options.frames.max(1);
+        let frames = options.frames as usize;
+        Self {
+            series: pipelines
+                .iter()
+                .map(|pipeline| Series::new(pipeline, frames))
+                .collect(),
+            clocks: vec![Clock::default(); pipelines.len()],
+            renderer,
+            scene,
+            pipelines,
+            options,
+            progress,
+            measured: 0,
         }
     }
 
-    let mut series: Vec<Series> = pipelines
-        .iter()
-        .map(|pipeline| Series::new(pipeline, frames as usize))
-        .collect();
-    tracing::debug!(frames, "all pipelines are warm; measuring");
-    let mut measured = 0;
-    while measured < frames {
-        let label = format!("measuring frame {} of {frames}", measured + 1);
-        let stopped = progress.begin(label, share(options.warmup + measured));
-        if measured > 0 {
-            if stopped.is_err() {
+    /// Moves the scene to a frame.
+    fn step(&mut self, frame: u32) -> Result<(), MeasureError> {
+        let step = self.options.step;
+        let moved = self.scene.update(f64::from(frame) * step, step);
+        moved.map_err(MeasureError::Script)
+    }
+
+    /// The picture of each pipeline at the first moment, which does not depend on how many frames
+    /// there is time for.
+    fn pictures(&mut self) -> Result<Pictures, MeasureError> {
+        let mut pictures = Pictures::new();
+        for index in 0..self.pipelines.len() {
+            let name = &self.pipelines[index].desc.name;
+            self.progress.begin(format!("drawing {name}"), 0.0)?;
+            self.draw(index, 0)?;
+            let pipeline = &self.pipelines[index];
+            pictures.push((
+                read_output(self.renderer, pipeline)?,
+                read_hdr(self.renderer, pipeline)?,
+            ));
+        }
+        Ok(pictures)
+    }
+
+    fn warm_up(&mut self) -> Result<(), MeasureError> {
+        let MeasureOptions { warmup, settle, .. } = self.options;
+        if warmup == 0 {
+            return Ok(());
+        }
+        let most = if settle {
+            warmup + MOST_UNTIL_SETTLED
+        } else {
+            warmup
+        };
+        for round in 0..most {
+            for index in 0..self.pipelines.len() {
+                let clock = &self.clocks[index];
+                let more = !clock.has_settled()
+                    && clock.spent + clock.last < WARMING * self.options.seconds;
+                if round >= warmup && !more {
+                    continue;
+                }
+                let name = &self.pipelines[index].desc.name;
+                let share = self.share(round);
+                self.progress.begin(format!("warming up {name}"), share)?;
+                let wall = self.draw(index, 0)?.wall;
+                self.clocks[index].add(wall);
+                self.clocks[index].warming.push(wall);
+            }
+        }
+        tracing::debug!("all pipelines are warm; measuring");
+        Ok(())
+    }
+
+    fn share(&self, done: u32) -> f32 {
+        done as f32 / (self.options.warmup + self.options.frames) as f32
+    }
+
+    fn measure(&mut self) -> Result<(), MeasureError> {
+        let frames = self.options.frames;
+        while self.measured < frames {
+            let label = format!("measuring frame {} of {frames}", self.measured + 1);
+            let share = self.share(self.options.warmup + self.measured);
+            let stopped = self.progress.begin(label, share);
+            let first = self.measured == 0;
+            let open: Vec<usize> = (0..self.pipelines.len())
+                .filter(|index| {
+                    let clock = &self.clocks[*index];
+                    first || clock.spent + clock.last <= self.options.seconds
+                })
+                .collect();
+            if open.is_empty() || !first && stopped.is_err() {
                 break;
             }
-            let time = f64::from(measured) * STEP;
-            scene.update(time, STEP).map_err(MeasureError::Script)?;
+            if !first {
+                self.step(self.options.start + self.measured)?;
+            }
+            let stepped: Vec<_> = self.scene.system_times().collect();
+            for turn in 0..open.len() {
+                let index = open[(self.measured as usize + turn) % open.len()];
+                let frame = self.draw(index, self.measured)?;
+                self.clocks[index].add(frame.wall);
+                self.series[index].add(&stepped, &frame);
+            }
+            if self.options.unqueried && self.measured % 2 == 1 {
+                self.draw_unqueried(&open)?;
+            }
+            self.measured += 1;
         }
-        let stepped: Vec<_> = scene.system_times().collect();
-        for turn in 0..pipelines.len() {
-            let index = (measured as usize + turn) % pipelines.len();
-            let frame = draw_and_wait(
-                renderer,
-                scene,
-                &mut pipelines[index],
-                options.size,
-                measured,
-            )?;
-            series[index].add(&stepped, &frame.statistics, frame.queries.as_ref());
-        }
-        measured += 1;
+        Ok(())
     }
 
-    let missing = Missing::of(renderer.gpu());
-    let mut measurement = Measurement {
-        frames: measured,
-        ..Measurement::default()
-    };
-    for (pipeline, series) in pipelines.iter_mut().zip(series) {
-        // Once more, for the picture: the scene still stands at the last moment that was measured.
-        draw_and_wait(renderer, scene, pipeline, options.size, measured - 1)?;
-        let mut result = series.finish(pipeline, &missing);
-        result.picture = Some(read_output(renderer, pipeline)?);
-        if let Some(hdr) = read_hdr(renderer, pipeline)? {
-            measurement.linear.insert(result.name.clone(), hdr);
+    /// A frame of each pipeline without the queries.
+    fn draw_unqueried(&mut self, open: &[usize]) -> Result<(), MeasureError> {
+        self.renderer.enable_queries(false);
+        let mut drawn = Ok(());
+        for &index in open {
+            match self.draw(index, self.measured) {
+                Ok(frame) => {
+                    self.clocks[index].add(frame.wall);
+                    self.series[index].add_unqueried(frame.wall);
+                }
+                Err(error) => {
+                    drawn = Err(error);
+                    break;
+                }
+            }
         }
-        measurement.pipelines.push(result);
+        self.renderer.enable_queries(true);
+        drawn
     }
-    Ok(measurement)
+
+    /// Draws a frame after the first and waits for the device.
+    fn draw(&mut self, index: usize, after: u32) -> Result<Drawn, MeasureError> {
+        let frame = self.options.start + after;
+        let time = f64::from(frame) * self.options.step;
+        let pipeline = &mut self.pipelines[index];
+        draw_and_wait(
+            self.renderer,
+            self.scene,
+            pipeline,
+            self.options.size,
+            (frame, time),
+        )
+    }
+
+    fn finish(self, pictures: Pictures) -> Result<Measurement, MeasureError> {
+        let missing = Missing::of(self.renderer.gpu());
+        let mut measurement = Measurement {
+            frames: self.measured,
+            ..Measurement::default()
+        };
+        let cut_short = self.measured < self.options.frames && self.progress.is_cancelled();
+        for (index, (output, linear)) in pictures.into_iter().enumerate() {
+            let pipeline = &self.pipelines[index];
+            let series = &self.series[index];
+            let mut result = series.clone().finish(pipeline, &missing);
+            result.cut = !cut_short && result.frame_cpu_ms.len() < self.options.frames as usize;
+            result.process_frames = vec![result.frame_cpu_ms.len() as u32];
+            result.settled_after = vec![self.clocks[index].warming.len() as u32];
+            result.picture = Some(output);
+            if let Some(hdr) = linear {
+                measurement.linear.insert(result.name.clone(), hdr);
+            }
+            measurement.pipelines.push(result);
+        }
+        Ok(measurement)
+    }
 }
 
 /// A frame that the device has finished.
@@ -150,6 +349,8 @@ struct Drawn {
     statistics: FrameStatistics,
     /// Absent where the device measures nothing.
     queries: Option<Measured>,
+    /// Seconds from the first line of code until the device was done.
+    wall: f64,
 }
 
 fn draw_and_wait(
@@ -157,18 +358,21 @@ fn draw_and_wait(
     scene: &mut Scene,
     pipeline: &mut Pipeline,
     size: (u32, u32),
-    frame: u32,
+    (frame, time): (u32, f64),
 ) -> Result<Drawn, MeasureError> {
     // A pipeline whose buffers turn out to be too small draws the frame again.
     for _ in 0..MOST_ATTEMPTS {
         let serial = renderer.next_frame();
         renderer.set_frame_index(frame);
-        let statistics = draw(renderer, scene, pipeline, size, f64::from(frame) * STEP)?.clone();
+        let started = Instant::now();
+        let statistics = draw(renderer, scene, pipeline, size, time)?.clone();
         let queries = renderer.finish(TIMEOUT)?;
+        let wall = started.elapsed().as_secs_f64();
         if !pipeline.grow(&queries) {
             return Ok(Drawn {
                 statistics,
                 queries: queries.into_iter().find(|found| found.frame == serial),
+                wall,
             });
         }
     }

@@ -1,10 +1,10 @@
 //! The measurements of one pipeline, frame by frame.
 
+use lightbench_render::Pipeline;
 use lightbench_render::gpu::Gpu;
-use lightbench_render::queries::Measured;
-use lightbench_render::{FrameStatistics, Pipeline};
 use lightbench_world::SystemTime;
 
+use super::Drawn;
 use crate::report::{
     AbilityResult, CounterResult, Parameter, PassResult, PipelineResult, SystemResult, TargetResult,
 };
@@ -30,6 +30,7 @@ impl Missing {
 }
 
 /// Collects frames of one pipeline.
+#[derive(Clone)]
 pub(super) struct Series {
     result: PipelineResult,
     /// GPU time of each frame and of its passes; NaN where a frame's queries were lost.
@@ -105,14 +106,11 @@ impl Series {
         }
     }
 
-    /// Adds a frame. `stepped` is what the systems took to reach its moment, and `measured` what
-    /// its queries brought.
-    pub(super) fn add(
-        &mut self,
-        stepped: &[SystemTime],
-        statistics: &FrameStatistics,
-        measured: Option<&Measured>,
-    ) {
+    /// Adds a frame. `stepped` is what the systems took to reach its moment.
+    pub(super) fn add(&mut self, stepped: &[SystemTime], frame: &Drawn) {
+        let statistics = &frame.statistics;
+        let measured = frame.queries.as_ref();
+        self.result.frame_wall_ms.push(frame.wall * 1e3);
         for time in stepped.iter().chain(&statistics.systems) {
             self.add_system(time);
         }
@@ -158,6 +156,11 @@ impl Series {
                 pass.vertices = measured.vertices.get(index).copied();
             }
         }
+    }
+
+    /// Adds a frame without queries, which took so many seconds.
+    pub(super) fn add_unqueried(&mut self, wall: f64) {
+        self.result.unqueried_wall_ms.push(wall * 1e3);
     }
 
     fn add_system(&mut self, time: &SystemTime) {

@@ -1,7 +1,11 @@
 //! What the numbers of a comparison allow to be said about speed.
+//!
+//! Two pipelines are compared inside of each process, which drew them in turn, and the ratios of at
+//! least five fresh processes give an interval. A pair is ranked where that interval, corrected for
+//! all pairs, lies beyond ± 5 %.
 
 use super::model::{Comparison, PipelineResult};
-use crate::statistics::{Bootstrap, CONFIDENCE, Interval, Summary, ratio_of_medians};
+use crate::statistics::{CONFIDENCE, Interval, ProcessRatio, Summary, holm, median};
 use crate::study::Study;
 
 /// Times within this share of each other count as the same.
@@ -27,16 +31,16 @@ pub enum Verdict {
     Slower,
     /// The same within the margin, and the interval supports it.
     Same,
-    /// The interval of the ratio reaches over the margin, or the medians' intervals overlap.
+    /// The interval of the ratio reaches over the margin.
     Undecided,
-    /// Fewer than six frames, or no times at all.
+    /// Fewer than five processes, or no times at all.
     TooFew,
 }
 
 /// The speed of `a` relative to `b`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ratio {
-    /// median(b) / median(a): how many times as fast `a` is.
+    /// How many times as fast `a` is: the geometric mean over the processes of median(b) / median(a).
     pub speed: f64,
     /// Interval of `speed`.
     pub interval: Option<Interval>,
@@ -59,23 +63,122 @@ pub struct Analysis {
     pub order: Vec<usize>,
     /// The fastest against each other pipeline; `None` for the fastest.
     pub against_fastest: Vec<Option<Ratio>>,
-    /// Confidence level of each ratio's interval: 95 % for all pairs together (Bonferroni).
+    /// Each pipeline against each other, `None` against itself: how many times as fast the first is.
+    pub ratios: Vec<Vec<Option<Ratio>>>,
+    /// The strictest level of a ratio's interval, so that all pairs together hold with 95 % (Holm).
     pub ratio_level: f64,
 }
 
-/// Analyses every point of a study. The corrections are for all pairs of all points together.
+/// Analyses every point of a study. The correction is for all pairs of all points together.
 pub fn of_study(study: &Study) -> Vec<Analysis> {
-    let points = study.points.iter();
-    points
-        .map(|point| Analysis::of(&point.comparison))
+    let comparisons: Vec<&Comparison> = study.points.iter().map(|p| &p.comparison).collect();
+    of_points(&comparisons)
+}
+
+fn of_points(points: &[&Comparison]) -> Vec<Analysis> {
+    let clocks: Vec<Clock> = points
+        .iter()
+        .map(|point| choose_clock(&point.pipelines))
+        .collect();
+    // Any pair may end up in a sentence, so every interval is corrected for all of them.
+    let mut pairs = Vec::new();
+    for (point, clock) in points.iter().zip(&clocks) {
+        let count = point.pipelines.len();
+        for (a, b) in (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))) {
+            let speeds = speeds(&point.pipelines[a], &point.pipelines[b], *clock);
+            pairs.push(ProcessRatio::of(&speeds));
+        }
+    }
+    let known: Vec<ProcessRatio> = pairs.iter().flatten().copied().collect();
+    let doubts: Vec<f64> = known.iter().map(|pair| pair.doubt(MARGIN)).collect();
+    let levels = holm(&doubts, CONFIDENCE);
+    let ratio_level = levels.iter().copied().fold(CONFIDENCE, f64::max);
+    let mut levels = levels.into_iter();
+    let mut decided = pairs.into_iter().map(|pair| {
+        let pair = pair?;
+        let interval = pair.interval(levels.next().unwrap_or(ratio_level));
+        Some(Ratio {
+            speed: pair.ratio(),
+            interval: Some(interval),
+            verdict: decide(interval),
+        })
+    });
+    let mut analyses = Vec::new();
+    for (point, clock) in points.iter().zip(clocks) {
+        let count = point.pipelines.len();
+        let mut ratios = vec![vec![None; count]; count];
+        for (a, b) in (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))) {
+            let ratio = decided.next().flatten();
+            let ratio = ratio
+                .unwrap_or_else(|| undecidable(&point.pipelines[a], &point.pipelines[b], clock));
+            ratios[a][b] = Some(ratio);
+            ratios[b][a] = Some(ratio.inverse());
+        }
+        analyses.push(Analysis::with(point, clock, ratios, ratio_level));
+    }
+    analyses
+}
+
+/// How many times as fast `a` is as `b`, in each process that measured both. Of a pipeline that was
+/// cut short, the same moments of the other count.
+fn speeds(a: &PipelineResult, b: &PipelineResult, clock: Clock) -> Vec<f64> {
+    let (a, b) = (
+        a.by_process(samples(a, clock)),
+        b.by_process(samples(b, clock)),
+    );
+    let speed = |(a, b): (&[f64], &[f64])| {
+        let both = a.len().min(b.len());
+        Some(median(&b[..both])? / median(&a[..both])?)
+    };
+    a.into_iter()
+        .zip(b)
+        .map(|pair| speed(pair).unwrap_or(f64::NAN))
         .collect()
 }
 
+/// The ratio of two medians of which too few processes tell.
+fn undecidable(a: &PipelineResult, b: &PipelineResult, clock: Clock) -> Ratio {
+    let [a, b] = [a, b].map(|p| median(samples(p, clock)).unwrap_or(f64::NAN));
+    Ratio {
+        speed: b / a,
+        interval: None,
+        verdict: Verdict::TooFew,
+    }
+}
+
+impl Ratio {
+    /// The speed of the second relative to the first.
+    fn inverse(self) -> Self {
+        Self {
+            speed: 1.0 / self.speed,
+            interval: self.interval.map(|interval| Interval {
+                low: 1.0 / interval.high,
+                high: 1.0 / interval.low,
+                level: interval.level,
+            }),
+            verdict: match self.verdict {
+                Verdict::Faster => Verdict::Slower,
+                Verdict::Slower => Verdict::Faster,
+                same => same,
+            },
+        }
+    }
+}
+
 impl Analysis {
-    /// Analyses the frame times.
+    /// Analyses the frame times of one point alone.
     pub fn of(comparison: &Comparison) -> Self {
+        let found = of_points(&[comparison]).pop();
+        found.unwrap_or_else(|| Self::with(comparison, Clock::Missing, Vec::new(), CONFIDENCE))
+    }
+
+    fn with(
+        comparison: &Comparison,
+        clock: Clock,
+        ratios: Vec<Vec<Option<Ratio>>>,
+        ratio_level: f64,
+    ) -> Self {
         let pipelines = &comparison.pipelines;
-        let clock = choose_clock(pipelines);
         let times: Vec<_> = pipelines
             .iter()
             .map(|p| Summary::of(samples(p, clock)))
@@ -89,32 +192,19 @@ impl Analysis {
             .collect();
         let median = |i: usize| times[i].map_or(f64::INFINITY, |t| t.median);
         order.sort_by(|a, b| median(*a).total_cmp(&median(*b)));
-
-        // Any pair may end up in a sentence, so every interval is corrected for all of them.
-        let pairs = (pipelines.len() * pipelines.len().saturating_sub(1) / 2).max(1);
-        let ratio_level = 1.0 - (1.0 - CONFIDENCE) / pairs as f64;
-        let compare = |a: usize, b: usize| {
-            let series = [samples(&pipelines[a], clock), samples(&pipelines[b], clock)];
-            ratio(series, [times[a], times[b]], ratio_level)
+        let against = |from: Option<usize>, to: usize| {
+            let row = ratios.get(from?)?;
+            row.get(to).copied().flatten()
         };
-        let against_baseline = (0..pipelines.len())
-            .map(|i| (i != baseline).then(|| compare(i, baseline)))
-            .collect();
-        let against_fastest = (0..pipelines.len())
-            .map(|i| {
-                order
-                    .first()
-                    .filter(|f| **f != i)
-                    .map(|fastest| compare(*fastest, i))
-            })
-            .collect();
+        let all = 0..pipelines.len();
         Self {
             clock,
-            times,
             baseline,
-            against_baseline,
+            against_baseline: all.clone().map(|i| against(Some(i), baseline)).collect(),
+            against_fastest: all.map(|i| against(order.first().copied(), i)).collect(),
+            times,
             order,
-            against_fastest,
+            ratios,
             ratio_level,
         }
     }
@@ -152,46 +242,14 @@ fn choose_clock(pipelines: &[PipelineResult]) -> Clock {
     }
 }
 
-fn ratio([a, b]: [&[f64]; 2], times: [Option<Summary>; 2], level: f64) -> Ratio {
-    let [Some(time_a), Some(time_b)] = times else {
-        return Ratio {
-            speed: f64::NAN,
-            interval: None,
-            verdict: Verdict::TooFew,
-        };
-    };
-    let speed = time_b.median / time_a.median;
-    // At least ten resamples beyond each end of the interval.
-    let resamples = (20.0 / (1.0 - level)).clamp(2000.0, 100_000.0) as u32;
-    let options = Bootstrap {
-        level,
-        resamples,
-        ..Bootstrap::default()
-    };
-    let Some(interval) = ratio_of_medians(b, a, options) else {
-        return Ratio {
-            speed,
-            interval: None,
-            verdict: Verdict::TooFew,
-        };
-    };
-    let medians = [time_a.median_interval, time_b.median_interval];
-    let apart = matches!(medians, [Some(a), Some(b)] if !a.overlaps(&b));
-    Ratio {
-        speed,
-        interval: Some(interval),
-        verdict: decide(interval, apart),
-    }
-}
-
-/// The decision table. `apart` says whether the intervals of the two medians are disjoint.
-fn decide(speed: Interval, apart: bool) -> Verdict {
+/// The decision table.
+fn decide(speed: Interval) -> Verdict {
     let (fast, slow) = (1.0 + MARGIN, 1.0 / (1.0 + MARGIN));
     if speed.low >= slow && speed.high <= fast {
         Verdict::Same
-    } else if apart && speed.low > fast {
+    } else if speed.low > fast {
         Verdict::Faster
-    } else if apart && speed.high < slow {
+    } else if speed.high < slow {
         Verdict::Slower
     } else {
         Verdict::Undecided
@@ -205,27 +263,109 @@ mod tests {
     #[test]
     fn decision_table() {
         use Verdict::{Faster, Same, Slower, Undecided};
-        for (low, high, apart, verdict) in [
-            (1.2, 1.4, true, Faster),
-            (1.2, 1.4, false, Undecided),
-            (1.04, 1.4, true, Undecided),
-            (0.7, 0.8, true, Slower),
-            (0.7, 0.8, false, Undecided),
-            (0.9, 1.1, true, Undecided),
-            (0.9, 1.1, false, Undecided),
-            (0.98, 1.02, false, Same),
-            (1.01, 1.03, true, Same),
-            (1.0, 1.0, false, Same),
+        for (low, high, verdict) in [
+            (1.2, 1.4, Faster),
+            (1.04, 1.4, Undecided),
+            (0.7, 0.8, Slower),
+            (0.9, 1.1, Undecided),
+            (0.98, 1.02, Same),
+            (1.01, 1.03, Same),
+            (1.0, 1.0, Same),
         ] {
-            let found = decide(
-                Interval {
-                    low,
-                    high,
-                    level: 0.95,
-                },
-                apart,
+            let level = 0.95;
+            assert_eq!(
+                decide(Interval { low, high, level }),
+                verdict,
+                "{low} {high}"
             );
-            assert_eq!(found, verdict, "{low} {high} {apart}");
         }
+    }
+
+    /// A pipeline that takes so long in each of the processes, with two frames in each.
+    fn pipeline(name: &str, times: &[f64]) -> PipelineResult {
+        let frames: Vec<f64> = times.iter().flat_map(|ms| [*ms, *ms * 1.001]).collect();
+        PipelineResult {
+            name: name.into(),
+            frame_cpu_ms: frames.clone(),
+            frame_gpu_ms: Some(frames),
+            process_frames: vec![2; times.len()],
+            ..PipelineResult::default()
+        }
+    }
+
+    fn verdicts(pipelines: Vec<PipelineResult>) -> Vec<Option<Verdict>> {
+        let analysis = Analysis::of(&crate::report::sample::with(pipelines));
+        let ratios = analysis.against_baseline.iter();
+        ratios
+            .map(|ratio| ratio.map(|ratio| ratio.verdict))
+            .collect()
+    }
+
+    #[test]
+    fn processes_decide_and_not_frames() {
+        let base = [10.0, 10.1, 9.9, 10.05, 10.0];
+        let twice = [20.3, 19.9, 20.0, 20.2, 20.1];
+        let wild = [11.0, 18.0, 9.0, 25.0, 12.0];
+        let found = verdicts(vec![
+            pipeline("base", &base),
+            pipeline("twice", &twice),
+            pipeline("wild", &wild),
+            pipeline("same", &base),
+        ]);
+        use Verdict::{Same, Slower, Undecided};
+        assert_eq!(found, [None, Some(Slower), Some(Undecided), Some(Same)]);
+        // The same numbers from fewer processes say nothing.
+        let few = verdicts(vec![
+            pipeline("base", &base[..4]),
+            pipeline("twice", &twice[..4]),
+        ]);
+        assert_eq!(few, [None, Some(Verdict::TooFew)]);
+    }
+
+    /// What slows a process slows all of its pipelines, and cancels.
+    #[test]
+    fn ratios_are_formed_inside_of_processes() {
+        let drift = [1.0, 1.3, 0.8, 1.6, 1.1];
+        let found = verdicts(vec![
+            pipeline("base", &drift.map(|d| 10.0 * d)),
+            pipeline("slower", &drift.map(|d| 12.0 * d)),
+        ]);
+        assert_eq!(found[1], Some(Verdict::Slower));
+    }
+
+    /// A pipeline that had time for two of six moments is compared at these.
+    #[test]
+    fn moments_that_both_measured_are_compared() {
+        let times = |frames: usize| {
+            let moments: Vec<f64> = (0..frames).map(|i| 10.0 + 4.0 * i as f64).collect();
+            PipelineResult {
+                frame_gpu_ms: Some(moments.repeat(5)),
+                frame_cpu_ms: vec![1.0; 5 * frames],
+                process_frames: vec![frames as u32; 5],
+                ..PipelineResult::default()
+            }
+        };
+        let name = |name: &str, result: PipelineResult| PipelineResult {
+            name: name.into(),
+            ..result
+        };
+        let found = verdicts(vec![name("long", times(6)), name("cut", times(2))]);
+        assert_eq!(found[1], Some(Verdict::Same));
+    }
+
+    #[test]
+    fn more_points_make_claims_harder() {
+        let times = [10.0, 10.3, 9.8, 10.2, 9.9];
+        let slower = [11.2, 11.1, 11.4, 11.0, 11.3];
+        let point =
+            || crate::report::sample::with(vec![pipeline("a", &times), pipeline("b", &slower)]);
+        let verdict = |analysis: &Analysis| analysis.against_baseline[1].map(|ratio| ratio.verdict);
+        let points: Vec<Comparison> = (0..200).map(|_| point()).collect();
+        let refs: Vec<&Comparison> = points.iter().collect();
+        let alone = verdict(&Analysis::of(&points[0]));
+        let among = of_points(&refs);
+        assert_eq!(alone, Some(Verdict::Slower));
+        assert_eq!(verdict(&among[0]), Some(Verdict::Undecided));
+        assert!(among[0].ratio_level > 0.999);
     }
 }

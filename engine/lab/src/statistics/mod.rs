@@ -5,9 +5,11 @@
 
 mod bootstrap;
 mod interval;
+mod processes;
 
 pub use bootstrap::{Bootstrap, ratio_of_medians};
 pub use interval::median_interval;
+pub use processes::{LEAST_PROCESSES, ProcessRatio, holm};
 
 use serde::{Deserialize, Serialize};
 

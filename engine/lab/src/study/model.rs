@@ -37,6 +37,10 @@ pub struct Plan {
     pub processes: u32,
     /// Seconds for one pipeline at one point, over all processes.
     pub seconds: f64,
+    /// Folders outside of the project that scenes and pipelines are read from: `@0/` begins the paths
+    /// of those in the first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<std::path::PathBuf>,
 }
 
 /// The reference that is no pipeline: the path tracer.
@@ -61,8 +65,8 @@ pub struct Choice {
 #[serde(deny_unknown_fields)]
 pub struct Axis {
     /// What it varies: a parameter of the scenes by its name, a parameter of a pipeline as
-    /// `pipeline.parameter`, of all pipelines that have it as `*.parameter`, or [`SIZE`], or
-    /// [`START`].
+    /// `pipeline.parameter`, of all pipelines that have it as `*.parameter`, or [`SIZE`], [`START`]
+    /// or [`CAMERA`].
     pub name: String,
     /// Its values as text, in the order in which they are measured.
     pub values: Vec<String>,
@@ -72,6 +76,8 @@ pub struct Axis {
 pub const SIZE: &str = "size";
 /// The axis of the frame at which the scene is drawn first: along a path of the camera, a place.
 pub const START: &str = "start";
+/// The axis of cameras, by the names of their entities.
+pub const CAMERA: &str = "camera";
 
 /// What a study found so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,9 +86,9 @@ pub struct Study {
     pub schema: u32,
     /// What was asked.
     pub plan: Plan,
-    /// The points that are complete, in the order of the plan.
+    /// The points that at least one process has measured, in the order of the plan.
     pub points: Vec<Point>,
-    /// Keys of the points that are not, in the order of the plan.
+    /// Keys of the points that not all processes have measured, in the order of the plan.
     pub missing: Vec<String>,
 }
 

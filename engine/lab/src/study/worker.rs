@@ -1,0 +1,439 @@
+//! One process of a study: it opens the device once and measures every point that it is given.
+
+use std::collections::HashMap;
+
+use lightbench_assets::cache::Cache;
+use lightbench_assets::files::Files;
+use lightbench_assets::{Cancelled, Progress};
+use lightbench_render::{
+    Compiler, Gpu, GpuError, GpuOptions, Pipeline, PipelineDesc, Place, Problem, Problems,
+    Renderer, Variants, View,
+};
+use lightbench_script::{Limits, LogLine, Scene, Settings, load_pipeline, load_scene_within};
+use lightbench_world::{Camera, Name};
+
+use super::model::{Plan, TRACED};
+use super::points::{PlanError, Planned};
+use super::store::Store;
+use crate::diff::DiffOptions;
+use crate::measure::{
+    Inputs, MeasureError, MeasureOptions, Measurement, load_average, measure, processor_mhz,
+};
+use crate::reference::output::{ToneCurve, shown};
+use crate::report::{
+    Adapter, Comparison, Machine, Parameter, PipelineResult, ProcessRecord, SCHEMA, Seed,
+};
+use crate::tracer::{self, TracedScene};
+use crate::{HdrImage, LabError};
+
+/// Why a process measured nothing more.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The plan makes no sense.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// A script or a shader has mistakes.
+    #[error(transparent)]
+    Problems(#[from] Problems),
+    /// No device can be opened.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A frame could not be measured.
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
+    /// A file could not be read or written.
+    #[error(transparent)]
+    Lab(#[from] LabError),
+    /// It was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What a process has to say while it works.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Remark {
+    /// A scene's script printed it, or it is a warning of a model.
+    Scene(LogLine),
+    /// What had to be changed for a scene to fit the device.
+    Warning(String),
+    /// A point is measured and written.
+    Done(String),
+}
+
+/// What a process needs to know.
+#[derive(Clone, Debug)]
+pub struct Process {
+    /// Which one, from 0.
+    pub index: u32,
+    /// The points to measure, in this order.
+    pub points: Vec<Planned>,
+    /// The adapter.
+    pub gpu: GpuOptions,
+    /// Version of the program.
+    pub program_version: String,
+    /// The command of the whole study, ready to be typed again.
+    pub command_line: String,
+    /// The time as RFC 3339.
+    pub clock: fn() -> String,
+}
+
+/// Measures points one after another and writes each when it is complete.
+///
+/// # Errors
+/// What keeps a point from being measured. The points before it are on disk.
+pub fn work(
+    files: &Files,
+    plan: &Plan,
+    store: &Store,
+    process: &Process,
+    progress: &Progress,
+    tell: &mut dyn FnMut(Remark),
+) -> Result<(), StudyError> {
+    let renderer = Renderer::new(Gpu::open(&process.gpu)?);
+    let compiler = renderer.compiler();
+    let inputs = Inputs::new();
+    let mut worker = Worker {
+        files: inputs.watch(files),
+        inputs,
+        plan,
+        process,
+        renderer,
+        compiler,
+        compiled: HashMap::new(),
+        cache: Cache::default(),
+        progress,
+    };
+    for point in &process.points {
+        let (comparison, measured) = worker.point(point, tell)?;
+        let linear = |name: &str| measured.linear.get(name).cloned();
+        store.write(point, process.index, comparison, linear)?;
+        tell(Remark::Done(point.key.clone()));
+    }
+    Ok(())
+}
+
+/// Pipelines that were compiled, by their place in the plan, their settings and whether they draw all
+/// reflection models.
+type Compiled = HashMap<(usize, String, bool), Pipeline>;
+
+struct Worker<'a> {
+    files: Files,
+    inputs: Inputs,
+    plan: &'a Plan,
+    process: &'a Process,
+    renderer: Renderer,
+    compiler: Compiler,
+    compiled: Compiled,
+    cache: Cache,
+    progress: &'a Progress,
+}
+
+impl Worker<'_> {
+    fn point(
+        &mut self,
+        point: &Planned,
+        tell: &mut dyn FnMut(Remark),
+    ) -> Result<(Comparison, Measurement), StudyError> {
+        self.progress.begin(format!("loading {}", point.key), 0.0)?;
+        let mut scene = self.scene(point)?;
+        scene
+            .take_log()
+            .into_iter()
+            .map(Remark::Scene)
+            .for_each(&mut *tell);
+        let all = scene.has_update() || scene.assets.reflection_models().has_others();
+        let mut pipelines = self.pipelines(point, all)?;
+
+        let started = (self.process.clock)();
+        let (load, mhz) = (load_average(), processor_mhz());
+        let clock = std::time::Instant::now();
+        self.renderer.reset_scene();
+        let options = MeasureOptions {
+            size: point.size,
+            warmup: self.plan.warmup,
+            settle: true,
+            frames: self.plan.frames,
+            step: self.plan.step,
+            start: point.start,
+            unqueried: true,
+            seconds: self.plan.seconds / f64::from(self.plan.processes.max(1)),
+        };
+        let traced = self.traced(point, &mut scene)?;
+        let measured = measure(
+            &mut self.renderer,
+            &mut scene,
+            &mut pipelines,
+            options,
+            self.progress,
+        );
+        let warnings = self.renderer.take_warnings();
+        warnings
+            .into_iter()
+            .map(Remark::Warning)
+            .for_each(&mut *tell);
+        scene
+            .take_log()
+            .into_iter()
+            .map(Remark::Scene)
+            .for_each(&mut *tell);
+        let mut measured = measured?;
+        if self.progress.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+        self.keep(point, all, pipelines);
+        for (choice, result) in self.plan.pipelines.iter().zip(&mut measured.pipelines) {
+            rename(result, choice.label.as_deref(), &mut measured.linear);
+        }
+        let record = ProcessRecord {
+            index: self.process.index,
+            started,
+            seconds: clock.elapsed().as_secs_f64(),
+            load_average: load,
+            processor_mhz: mhz,
+        };
+        let mut comparison = self.describe(point, &scene, record);
+        comparison.pipelines = std::mem::take(&mut measured.pipelines);
+        if self.process.index > 0 {
+            // The pictures of the first process are the study's.
+            measured.linear.clear();
+            comparison
+                .pipelines
+                .iter_mut()
+                .for_each(|p| p.picture = None);
+        } else if let Some(reference) = traced {
+            self.compare_with_traced(&mut comparison, &measured, reference)?;
+        } else {
+            let linear = |name: &str| measured.linear.get(name);
+            comparison.compare_pictures(linear, DiffOptions::default())?;
+        }
+        Ok((comparison, measured))
+    }
+
+    /// The scene at a point, before its first step.
+    fn scene(&self, point: &Planned) -> Result<Scene, StudyError> {
+        let limits = Limits::default().in_project(&self.files);
+        let limits = limits.map_err(Problems::from)?;
+        let path = &self.plan.scenes[point.scene].path;
+        let settings = self.plan.scene_settings(point);
+        let loaded = load_scene_within(
+            &self.files,
+            path,
+            &settings,
+            self.progress,
+            &self.cache,
+            &limits,
+        );
+        if self.progress.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+        let mut scene = loaded?;
+        if let Some(camera) = &point.camera {
+            look_through(&mut scene, camera)?;
+        }
+        Ok(scene)
+    }
+
+    fn settings(
+        &self,
+        point: &Planned,
+        index: usize,
+    ) -> Result<(Settings, PipelineDesc), StudyError> {
+        let choice = &self.plan.pipelines[index];
+        let plain = load_pipeline(&self.files, &choice.path, &Settings::new())?;
+        let name = choice.label.as_deref().unwrap_or(&plain.name);
+        let has = |parameter: &str| plain.parameter(parameter).is_some();
+        let settings = self.plan.pipeline_settings(point, choice, name, has);
+        let desc = load_pipeline(&self.files, &choice.path, &settings)?;
+        Ok((settings, desc))
+    }
+
+    /// The pipelines, compiled where no earlier point has done so.
+    fn pipelines(&mut self, point: &Planned, all: bool) -> Result<Vec<Pipeline>, StudyError> {
+        let mut pipelines = Vec::new();
+        for index in 0..self.plan.pipelines.len() {
+            let (settings, desc) = self.settings(point, index)?;
+            let name = &desc.name;
+            self.progress.begin(format!("compiling {name}"), 0.0)?;
+            let known = self.compiled.remove(&(index, in_words(&settings), all));
+            let variants = if all {
+                Variants::ALL
+            } else {
+                Variants::DEFAULT_MODEL
+            };
+            let pipeline = match known {
+                Some(pipeline) => pipeline,
+                None => self.compiler.compile_for(&self.files, &desc, variants)?,
+            };
+            pipelines.push(pipeline);
+        }
+        Ok(pipelines)
+    }
+
+    /// Keeps the pipelines for a later point.
+    fn keep(&mut self, point: &Planned, all: bool, pipelines: Vec<Pipeline>) {
+        for (index, pipeline) in pipelines.into_iter().enumerate() {
+            if let Ok((settings, _)) = self.settings(point, index) {
+                let key = (index, in_words(&settings), all);
+                self.compiled.insert(key, pipeline);
+            }
+        }
+    }
+
+    /// The picture of the path tracer, where it is the reference and this process takes pictures.
+    fn traced(&self, point: &Planned, scene: &mut Scene) -> Result<Option<HdrImage>, StudyError> {
+        if self.plan.reference != TRACED || self.process.index > 0 {
+            return Ok(None);
+        }
+        let step = self.plan.step;
+        for frame in 1..=point.start {
+            let moved = scene.update(f64::from(frame) * step, step);
+            moved.map_err(Problems::from)?;
+        }
+        scene.refresh();
+        let view = View::from_world(&scene.world).unwrap_or_default();
+        let traced_scene = TracedScene::new(&scene.world, &scene.assets);
+        let options = tracer::Options {
+            size: point.size,
+            mode: match self.plan.traced_samples {
+                0 => tracer::Mode::Direct,
+                _ => tracer::Mode::Full,
+            },
+            samples: self.plan.traced_samples.max(1),
+            ..tracer::Options::default()
+        };
+        self.progress.begin("tracing the reference", 0.0)?;
+        let traced = tracer::trace(&traced_scene, &view, &options, self.progress)?;
+        if traced.stopped {
+            return Err(Cancelled.into());
+        }
+        Ok(Some(traced.picture))
+    }
+
+    /// Compares all pictures with a traced one, which is shown as the first pipeline shows its own.
+    fn compare_with_traced(
+        &self,
+        comparison: &mut Comparison,
+        measured: &Measurement,
+        traced: HdrImage,
+    ) -> Result<(), StudyError> {
+        let parameters = comparison
+            .pipelines
+            .first()
+            .map_or(&[][..], |p| &p.parameters);
+        let value = |name: &str| {
+            parameters
+                .iter()
+                .find(|p| p.name == name)
+                .map(|p| &*p.value)
+        };
+        let exposure = value("exposure").and_then(|text| text.parse().ok());
+        let curve: Option<ToneCurve> = value("tone_curve").and_then(|text| text.parse().ok());
+        let picture = shown(&traced, exposure.unwrap_or(0.0), curve.unwrap_or_default());
+        comparison.pipelines.insert(
+            0,
+            PipelineResult {
+                name: TRACED.to_owned(),
+                title: "Path tracer".to_owned(),
+                picture: Some(picture),
+                ..PipelineResult::default()
+            },
+        );
+        let linear = |name: &str| match name {
+            TRACED => Some(&traced),
+            name => measured.linear.get(name),
+        };
+        comparison.compare_pictures(linear, DiffOptions::default())?;
+        Ok(())
+    }
+
+    /// All of a comparison but its results.
+    fn describe(&self, point: &Planned, scene: &Scene, record: ProcessRecord) -> Comparison {
+        let parameters: Vec<Parameter> = scene
+            .parameters
+            .iter()
+            .map(|parameter| Parameter {
+                name: parameter.name.clone(),
+                value: parameter.value.to_string(),
+            })
+            .collect();
+        let seeds = parameters
+            .iter()
+            .filter(|parameter| parameter.name.contains("seed"))
+            .filter_map(|parameter| {
+                Some(Seed {
+                    name: parameter.name.clone(),
+                    value: parameter.value.parse().ok()?,
+                })
+            });
+        let name = self.plan.scenes[point.scene].name();
+        Comparison {
+            schema: SCHEMA,
+            title: format!("{name}: {} pipelines", self.plan.pipelines.len()),
+            scene: name,
+            command_line: self.process.command_line.clone(),
+            created: (self.process.clock)(),
+            program_version: self.process.program_version.clone(),
+            machine: Machine::this(),
+            adapter: Adapter::from(&self.renderer.gpu().summary),
+            size: [point.size.0, point.size.1],
+            frames: self.plan.frames,
+            warmup_frames: self.plan.warmup,
+            processes: vec![record],
+            reference: self.plan.reference.clone(),
+            seeds: seeds.collect(),
+            parameters,
+            inputs: self.inputs.list(&self.files),
+            pipelines: Vec::new(),
+            heat_map_scale: 1.0,
+        }
+    }
+}
+
+/// Gives a result the label that the plan has for it.
+fn rename(
+    result: &mut PipelineResult,
+    label: Option<&str>,
+    linear: &mut std::collections::BTreeMap<String, HdrImage>,
+) {
+    let Some(label) = label else { return };
+    if let Some(picture) = linear.remove(&result.name) {
+        linear.insert(label.to_owned(), picture);
+    }
+    result.title = format!("{} ({label})", result.label());
+    result.name = label.to_owned();
+}
+
+/// Makes one camera the only one that is active.
+fn look_through(scene: &mut Scene, name: &str) -> Result<(), StudyError> {
+    let wanted = scene.world.find(name);
+    let wanted = wanted.filter(|entity| scene.world.get::<Camera>(*entity).is_some());
+    let Some(wanted) = wanted else {
+        let names = scene.world.columns::<Name>();
+        let named = names.text().iter().zip(names.entities());
+        let cameras: Vec<String> = named
+            .filter(|(_, entity)| scene.world.get::<Camera>(**entity).is_some())
+            .map(|(name, _)| format!("`{name}`"))
+            .collect();
+        let place = Place::new(scene.path.as_str(), 0, 0);
+        let mut problem = Problem::new(place, format!("the scene has no camera `{name}`"));
+        problem.hint = Some(match &cameras[..] {
+            [] => "none of its cameras has a name".to_owned(),
+            cameras => format!("its cameras are {}", cameras.join(", ")),
+        });
+        return Err(Problems::from(problem).into());
+    };
+    let cameras: Vec<_> = scene.world.columns::<Camera>().entities().to_vec();
+    for entity in cameras {
+        if let Some(camera) = scene.world.get::<Camera>(entity) {
+            let active = entity == wanted;
+            // It is there, so it can be written.
+            let _ = scene.world.set(entity, Camera { active, ..camera });
+        }
+    }
+    Ok(())
+}
+
+fn in_words(settings: &Settings) -> String {
+    let words: Vec<String> = settings.iter().map(|(n, v)| format!("{n}={v}")).collect();
+    words.join("\n")
+}
