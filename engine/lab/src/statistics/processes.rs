@@ -46,6 +46,26 @@ impl ProcessRatio {
         })
     }
 
+    /// The ratio of two series that were measured apart, one time a process in each: a / b. Their
+    /// scatter may differ (B. L. Welch 1947, "The Generalization of Student's Problem when Several
+    /// Different Population Variances are Involved"). `None` below [`LEAST_PROCESSES`] in either.
+    pub fn between(a: &[f64], b: &[f64]) -> Option<Self> {
+        let (a, b) = (Self::of(a)?, Self::of(b)?);
+        let (in_a, in_b) = (a.error.powi(2), b.error.powi(2));
+        let both = in_a + in_b;
+        let freedom = both.powi(2) / (in_a.powi(2) / a.freedom + in_b.powi(2) / b.freedom);
+        Some(Self {
+            mean: a.mean - b.mean,
+            error: both.sqrt(),
+            // Without any scatter the formula divides nothing by nothing.
+            freedom: if freedom.is_finite() {
+                freedom
+            } else {
+                a.freedom
+            },
+        })
+    }
+
     /// The geometric mean.
     pub fn ratio(&self) -> f64 {
         self.mean.exp()
@@ -142,6 +162,26 @@ mod tests {
         assert!((inverse.doubt(0.05) - doubt).abs() < 1e-12);
         assert_eq!(ProcessRatio::of(&[1.01; 5]).unwrap().doubt(0.05), 1.0);
         assert_eq!(ProcessRatio::of(&[2.0; 5]).unwrap().doubt(0.05), 0.0);
+    }
+
+    #[test]
+    fn series_that_were_measured_apart() {
+        // Of equal size and scatter: the error is √2 of each, with twice the degrees of freedom.
+        let a = [-2.0_f64, -1.0, 0.0, 1.0, 2.0].map(f64::exp);
+        let found = ProcessRatio::between(&a.map(|x| 3.0 * x), &a).unwrap();
+        assert!((found.ratio() - 3.0).abs() < 1e-12);
+        assert!((found.error - 1.0).abs() < 1e-12 && (found.freedom - 8.0).abs() < 1e-9);
+        // Where one hardly scatters, the other's degrees of freedom are left.
+        let calm = [1.0, 1.0 + 1e-9, 1.0, 1.0 - 1e-9, 1.0, 1.0, 1.0];
+        let found = ProcessRatio::between(&a, &calm).unwrap();
+        assert!((found.freedom - 4.0).abs() < 1e-6, "{}", found.freedom);
+        assert!(ProcessRatio::between(&a, &calm[..4]).is_none());
+        assert_eq!(
+            ProcessRatio::between(&[2.0; 5], &[1.0; 5])
+                .unwrap()
+                .doubt(0.05),
+            0.0
+        );
     }
 
     #[test]

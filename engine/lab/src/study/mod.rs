@@ -3,6 +3,8 @@
 //! A [`Plan`] says what to measure. [`Worker processes`](work) measure its points and leave what they
 //! found in a [`Store`]; [`join`] makes one [`Study`] of it. [`Shard`] deals the points to machines.
 
+pub mod bundle;
+pub mod history;
 mod join;
 mod model;
 mod points;
