@@ -89,8 +89,8 @@ fn a_saved_scene_is_compared_and_its_systems_are_told() {
         "32x18",
         "--frames",
         "3",
-        "--warmup",
-        "0",
+        "--processes",
+        "1",
         "--out",
         "r",
     ];

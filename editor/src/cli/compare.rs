@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lightbench::assets::files::Files;
+use lightbench::lab::report::read_study;
 use lightbench::lab::study::{Planned, Shard, Store};
 
 use super::project;
-use super::report::{Stopped, note};
+use super::report::{Said, Stopped, Usage, note};
 use super::study::plan::PlanArguments;
 use super::study::running::{Ran, Run};
-use super::study::{outcome, this_command};
+use super::study::{against, outcome, this_command};
 
 /// Arguments of `lightbench compare`.
 #[derive(Args, Debug)]
@@ -39,6 +40,10 @@ pub struct Arguments {
     /// Measure one share of the points alone, as for one of several machines
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// The report.json of an earlier run: says what became faster, slower or different. The exit status
+    /// is 1 where something is slower, or has another picture or other counts
+    #[arg(long, value_name = "OLD.json")]
+    against: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -47,6 +52,18 @@ pub struct Arguments {
 /// Anything that keeps the report from being made.
 pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     project::writable(&arguments.out.join("report.html"))?;
+    if let Some(old) = &arguments.against {
+        // Read before anything is measured.
+        read_study(old)?;
+        let folder = old.parent().and_then(|folder| folder.canonicalize().ok());
+        if folder.is_some() && folder == arguments.out.canonicalize().ok() {
+            return Err(Usage(format!(
+                "--against {} would be replaced by the new report; give another folder with --out",
+                old.display()
+            ))
+            .into());
+        }
+    }
     let plan = arguments.plan.plan(&mut files)?;
     let all = plan.points()?;
     let points = share(all, arguments.shard);
@@ -64,7 +81,16 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     };
     let Ran { mut study, stopped } = run.measure(&store, &plan, &points)?;
     outcome::write(&mut study, &store, &points, &arguments.out)?;
-    if stopped { Err(Stopped.into()) } else { Ok(()) }
+    if stopped {
+        return Err(Stopped.into());
+    }
+    let Some(old) = &arguments.against else {
+        return Ok(());
+    };
+    if against::compare(&study, &arguments.out, old)? {
+        return Err(Said.into());
+    }
+    Ok(())
 }
 
 fn share(all: Vec<Planned>, shard: Option<Shard>) -> Vec<Planned> {

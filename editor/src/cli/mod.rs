@@ -83,6 +83,10 @@ enum Command {
     Compare(compare::Arguments),
     /// Makes one report of the shares that several machines measured
     Merge(study::merge::Arguments),
+    /// Packs a report with everything that it was made from
+    Bundle(study::bundle::BundleArguments),
+    /// Measures a bundle again and says what is equal and what differs
+    Reproduce(study::bundle::ReproduceArguments),
     /// Measures for `compare`, which starts it
     #[command(hide = true)]
     StudyWorker(study::worker::Arguments),
@@ -154,6 +158,8 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Run(arguments) => run::run(&arguments, files()?),
         Command::Compare(arguments) => compare::run(&arguments, files()?),
         Command::Merge(arguments) => study::merge::run(&arguments),
+        Command::Bundle(arguments) => study::bundle::bundle(&arguments, files()?),
+        Command::Reproduce(arguments) => study::bundle::reproduce(&arguments),
         Command::StudyWorker(arguments) => study::worker::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),

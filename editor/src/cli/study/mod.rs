@@ -1,6 +1,8 @@
 //! Studies on the command line: from arguments to a plan, the processes that measure it, and what is
 //! written of it.
 
+pub mod against;
+pub mod bundle;
 pub mod merge;
 pub mod outcome;
 pub mod plan;

@@ -5,7 +5,7 @@ use std::path::Path;
 use lightbench::lab::report::analysis::{Analysis, of_study, samples};
 use lightbench::lab::report::format::{bytes, milliseconds};
 use lightbench::lab::report::summary::{clock_name, summarize};
-use lightbench::lab::report::{Comparison, write_report};
+use lightbench::lab::report::{Comparison, write_study};
 use lightbench::lab::statistics::Summary;
 use lightbench::lab::study::{Planned, Store, Study};
 
@@ -22,9 +22,7 @@ pub fn write(
     folder: &Path,
 ) -> anyhow::Result<()> {
     let _ = (store, points);
-    if let Some(point) = study.points.first_mut() {
-        write_report(&mut point.comparison, folder)?;
-    }
+    write_study(study, folder)?;
     print(study)?;
     say(folder.join("report.html").display().to_string())
 }

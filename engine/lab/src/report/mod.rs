@@ -12,6 +12,7 @@ mod images;
 mod model;
 #[cfg(test)]
 pub(crate) mod sample;
+mod study_files;
 pub mod summary;
 mod write;
 
@@ -19,4 +20,5 @@ pub use model::{
     AbilityResult, Adapter, Comparison, CounterResult, Input, Machine, Parameter, PassResult,
     PipelineResult, ProcessRecord, SCHEMA, Seed, SystemResult, TargetResult,
 };
+pub use study_files::{read_study, write_study};
 pub use write::{ReportFiles, read_json, to_json, write_report};
