@@ -12,6 +12,8 @@ use super::arguments::GpuArguments;
 use super::progress::stop_on_ctrl_c;
 use super::project;
 use super::report::{self, Stopped, Usage, note, say, warn};
+use super::study::running::launcher;
+use super::study::this_command;
 
 /// Arguments of `lightbench run`.
 #[derive(Args, Debug)]
@@ -73,7 +75,8 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
             stop.cancel();
         }
     };
-    let laboratory = Box::new(workbench);
+    let launch = launcher(&files, &arguments.gpu, &this_command())?;
+    let laboratory = Box::new(workbench.with_studies(launch));
     let result = run_experiment(&files, &path, &settings, laboratory, print, &progress);
     if let Some(error) = unsaid.lock().unwrap_or_else(PoisonError::into_inner).take() {
         return Err(error);

@@ -1,6 +1,9 @@
 //! The laboratory of experiments: what [`FrameInspector`] can do, for scripts.
 
 mod measuring;
+mod studying;
+
+use std::path::Path;
 
 use lightbench_assets::Progress;
 use lightbench_assets::cache::Cache;
@@ -10,13 +13,14 @@ use lightbench_render::{
     Compiler, Gpu, GpuOptions, Pipeline, PipelineDesc, Problems, RenderError, Renderer, TargetImage,
 };
 use lightbench_script::{
-    Chart, Cost, Laboratory, LaboratoryError, Limits, LogLine, Scene, Settings, Shot, Task,
-    load_pipeline, load_scene_within,
+    Chart, Cost, Laboratory, LaboratoryError, Limits, LogLine, Scene, Settings, Shot, StudyRow,
+    StudyTask, Task, load_pipeline, load_scene_within,
 };
 
 use crate::capture::STEP;
 use crate::inspect::FrameInspector;
 use crate::shown::encode;
+use crate::study::Launch;
 
 /// Scenes that are kept for the next frame.
 const MOST_SCENES: usize = 4;
@@ -46,7 +50,12 @@ pub struct Workbench {
     pipelines: Vec<Compiled>,
     cache: Cache,
     warned: Vec<String>,
+    /// How a process of a study is started that measures into a folder.
+    launch: Option<LaunchFor>,
 }
+
+/// Says how a process is started that measures into a folder.
+type LaunchFor = Box<dyn Fn(&Path) -> Launch + Send>;
 
 struct Device {
     renderer: Renderer,
@@ -86,7 +95,16 @@ impl Workbench {
             pipelines: Vec::new(),
             cache: Cache::default(),
             warned: Vec::new(),
+            launch: None,
         }
+    }
+
+    /// The same workbench, which can measure studies too: `launch` says how a process is started that
+    /// measures into a folder.
+    #[must_use]
+    pub fn with_studies(mut self, launch: impl Fn(&Path) -> Launch + Send + 'static) -> Self {
+        self.launch = Some(Box::new(launch));
+        self
     }
 
     /// Looks into a frame as if it were the first that is ever drawn.
@@ -272,6 +290,10 @@ impl Laboratory for Workbench {
 
     fn measure(&mut self, task: &Task) -> Result<Vec<Cost>, LaboratoryError> {
         self.measure_task(task)
+    }
+
+    fn study(&mut self, task: &StudyTask) -> Result<Vec<StudyRow>, LaboratoryError> {
+        self.study_task(task)
     }
 
     fn compare(

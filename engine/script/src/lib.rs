@@ -48,8 +48,8 @@ mod syntax;
 mod testing;
 
 pub use experiment::{
-    Chart, ChartCurve, Cost, EXPERIMENTS, Laboratory, LaboratoryError, Shot, Task, TimeSpan,
-    experiment_names, run_experiment,
+    Chart, ChartCurve, Cost, EXPERIMENTS, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask,
+    Task, TimeSpan, experiment_names, run_experiment,
 };
 pub use limits::{GivenLimits, Limits};
 pub use lines::draw_line;

@@ -135,7 +135,10 @@ mod tests {
 
     use super::*;
     use crate::testing::project;
-    use crate::{Chart, Cost, Laboratory, LaboratoryError, Task, load_scene, run_experiment};
+    use crate::{
+        Chart, Cost, Laboratory, LaboratoryError, StudyRow, StudyTask, Task, load_scene,
+        run_experiment,
+    };
 
     /// Notes what it is asked to draw, and draws nothing.
     struct Notes(Arc<Mutex<Vec<Shot>>>);
@@ -166,6 +169,10 @@ mod tests {
 
         fn values(&mut self, _: &Shot, _: &str) -> Result<Vec<f64>, LaboratoryError> {
             Ok(Vec::new())
+        }
+
+        fn study(&mut self, _: &StudyTask) -> Result<Vec<StudyRow>, LaboratoryError> {
+            Err(LaboratoryError::Other("no studies".into()))
         }
 
         fn measure(&mut self, _: &Task) -> Result<Vec<Cost>, LaboratoryError> {

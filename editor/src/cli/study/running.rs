@@ -3,12 +3,14 @@
 use std::env;
 use std::ffi::OsString;
 use std::io::IsTerminal as _;
+use std::path::Path;
 
 use anyhow::{Context as _, anyhow};
 use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
 use lightbench::lab::study::{
-    Launch, Plan, Planned, ProcessError, Store, Study, Told, in_words, join, run_processes, stale,
+    Launch, Plan, Planned, ProcessError, Store, Study, Told, drop_stale, in_words, join,
+    run_processes,
 };
 
 use crate::cli::arguments::GpuArguments;
@@ -39,7 +41,11 @@ impl Run<'_> {
     /// # Errors
     /// A process that failed, or parts that can't be joined.
     pub fn measure(&self, store: &Store, plan: &Plan, points: &[Planned]) -> anyhow::Result<Ran> {
-        self.drop_stale(store, plan, points)?;
+        for path in drop_stale(store, plan, points, self.files)? {
+            note(format!(
+                "{path} has changed: what was measured with it is measured again"
+            ));
+        }
         let known = points
             .iter()
             .map(|point| (0..plan.processes).filter(|p| store.has(point, *p)).count())
@@ -71,7 +77,7 @@ impl Run<'_> {
             Told::Warning(text) => warn(text),
             Told::Note(text) => note(text),
         };
-        let launch = self.launch(store)?;
+        let launch = launcher(self.files, self.gpu, self.command_line)?(store.folder());
         let ran = run_processes(&launch, store, plan, points, &progress, &mut tell);
         drop(bar);
         let stopped = match ran {
@@ -94,51 +100,36 @@ impl Run<'_> {
         }
         Ok(Ran { study, stopped })
     }
+}
 
-    /// Removes what was measured with files that have changed since.
-    fn drop_stale(&self, store: &Store, plan: &Plan, points: &[Planned]) -> anyhow::Result<()> {
-        let mut told: Vec<String> = Vec::new();
-        for point in points {
-            for process in 0..plan.processes {
-                let Some(part) = store.read(point, process)? else {
-                    continue;
-                };
-                let changed = stale(&part, self.files);
-                if changed.is_empty() {
-                    continue;
-                }
-                store.remove(point, process)?;
-                for path in changed {
-                    if !told.contains(&path) {
-                        note(format!(
-                            "{path} has changed: what was measured with it is measured again"
-                        ));
-                        told.push(path);
-                    }
-                }
-            }
-        }
-        Ok(())
+/// How a process is started that measures into a folder.
+///
+/// # Errors
+/// Where the system does not tell this program's own file.
+pub fn launcher(
+    files: &Files,
+    gpu: &GpuArguments,
+    command_line: &str,
+) -> anyhow::Result<impl Fn(&Path) -> Launch + Send + 'static> {
+    let program = env::current_exe().context("can't find this program's own file")?;
+    let mut before: Vec<OsString> = Vec::new();
+    if let Some(project) = files.project() {
+        before.extend(["--project".into(), project.into()]);
     }
-
-    fn launch(&self, store: &Store) -> anyhow::Result<Launch> {
-        let program = env::current_exe().context("can't find this program's own file")?;
-        let mut arguments: Vec<OsString> = Vec::new();
-        if let Some(project) = self.files.project() {
-            arguments.extend(["--project".into(), project.into()]);
-        }
-        if let Some(limits) = limits_file() {
-            arguments.extend(["--limits".into(), limits]);
-        }
-        arguments.extend([
-            "study-worker".into(),
-            "--store".into(),
-            store.folder().into(),
-        ]);
-        arguments.extend(["--command-line".into(), self.command_line.into()]);
-        arguments.extend(self.gpu.again());
-        Ok(Launch { program, arguments })
+    if let Some(limits) = limits_file() {
+        before.extend(["--limits".into(), limits]);
     }
+    before.push("study-worker".into());
+    before.extend(["--command-line".into(), command_line.into()]);
+    before.extend(gpu.again());
+    Ok(move |folder: &Path| {
+        let mut arguments = before.clone();
+        arguments.extend(["--store".into(), folder.into()]);
+        Launch {
+            program: program.clone(),
+            arguments,
+        }
+    })
 }
 
 /// What `--limits` of this process names: its workers are held to the same.

@@ -64,7 +64,7 @@ impl Workbench {
     }
 }
 
-fn cost(result: &PipelineResult) -> Result<Cost, LaboratoryError> {
+pub(super) fn cost(result: &PipelineResult) -> Result<Cost, LaboratoryError> {
     let cpu = span(&result.frame_cpu_ms);
     let cpu = cpu.ok_or_else(|| LaboratoryError::Other("no frame was measured".to_owned()))?;
     let passes = || result.passes.iter();

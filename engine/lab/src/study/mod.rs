@@ -12,7 +12,7 @@ mod processes;
 mod store;
 mod worker;
 
-pub use join::{JoinError, join, stale};
+pub use join::{JoinError, drop_stale, join, load_linear};
 pub use model::{Axis, CAMERA, Choice, Plan, Point, SIZE, START, Study, TRACED};
 pub use points::{MOST_POINTS, PlanError, Planned, Shard};
 pub use processes::{Launch, Line, ProcessError, Told, in_words, run_processes};

@@ -15,7 +15,7 @@ use crate::math::text;
 use crate::names::list;
 
 /// The folder of a project that experiments write to.
-const OUT: &str = "out/";
+pub(super) const OUT: &str = "out/";
 
 /// What a part of a target held.
 #[derive(Clone)]

@@ -74,6 +74,56 @@ pub struct Cost {
     pub counters: Vec<(String, f64)>,
 }
 
+/// A study: pipelines at all combinations of some values, measured by fresh processes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyTask {
+    /// Heading of the report.
+    pub title: String,
+    /// Names or paths of scenes, with values of their parameters.
+    pub scenes: Vec<(String, Settings)>,
+    /// Names or paths of pipelines, with values of their parameters.
+    pub pipelines: Vec<(String, Settings)>,
+    /// What is varied, with its values as text: a parameter of the scenes, of a pipeline as
+    /// `pipeline.parameter`, of all as `*.parameter`, or `size`, `start` or `camera`.
+    pub sweep: Vec<(String, Vec<String>)>,
+    /// Width and height in pixels, both at least 1.
+    pub size: (u32, u32),
+    /// The pipeline that the others are compared with, or `traced`; the first without it.
+    pub reference: Option<String>,
+    /// Samples a pixel of a traced reference; 0 for what pipelines draw.
+    pub samples: u32,
+    /// Frames that each pipeline draws first, unmeasured.
+    pub warmup: u32,
+    /// Frames that each process measures of each pipeline.
+    pub frames: u32,
+    /// The frame at which the scene is drawn first.
+    pub start: u32,
+    /// Seconds between two measured frames of the scene.
+    pub step: Option<f64>,
+    /// How many processes measure.
+    pub processes: u32,
+    /// The most seconds for a pipeline at a point.
+    pub seconds: f64,
+    /// The folder of the report, below the project's folder `out/`.
+    pub out: String,
+}
+
+/// What a study found of one pipeline at one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyRow {
+    /// The scene and the values of what is varied, by name.
+    pub point: Vec<(String, String)>,
+    /// The pipeline.
+    pub pipeline: String,
+    /// What it cost.
+    pub cost: Cost,
+    /// Mean FLIP against the reference; absent for the reference itself.
+    pub flip: Option<f64>,
+    /// Against the reference: `faster`, `slower`, `same`, or `undecided` where the intervals do not
+    /// support any of these.
+    pub verdict: &'static str,
+}
+
 /// Curves over one parameter, to be drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
@@ -142,6 +192,12 @@ pub trait Laboratory: Send {
     /// # Errors
     /// As [`Laboratory::draw`].
     fn measure(&mut self, task: &Task) -> Result<Vec<Cost>, LaboratoryError>;
+
+    /// Measures a study, or goes on with it where some of it is measured already, and writes its report.
+    ///
+    /// # Errors
+    /// As [`Laboratory::draw`], a folder that can't be written, or no program to start processes of.
+    fn study(&mut self, task: &StudyTask) -> Result<Vec<StudyRow>, LaboratoryError>;
 
     /// How far an image is from a reference, each number with the name of its metric.
     ///

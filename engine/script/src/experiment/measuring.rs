@@ -67,18 +67,35 @@ fn task(arguments: &Arguments) -> Result<Task, Mistake> {
 /// The pipelines with their values.
 fn pipelines(arguments: &Arguments) -> Result<Vec<(String, Settings)>, Mistake> {
     let given = arguments.array(1)?;
+    named(
+        arguments,
+        "measure",
+        "pipelines",
+        "tiled_forward\", #{ tile_size: \"8\"",
+        &given,
+    )
+}
+
+/// Names, or pairs of a name and a map of values. `example` is what a pair may hold.
+pub(super) fn named(
+    arguments: &Arguments,
+    call: &'static str,
+    what: &str,
+    example: &str,
+    given: &Array,
+) -> Result<Vec<(String, Settings)>, Mistake> {
     if given.is_empty() || given.len() > MOST_PIPELINES {
         return Err(Mistake::new(format!(
-            "`pipelines` of `measure` must have 1 to {MOST_PIPELINES} entries, not {}",
+            "`{what}` of `{call}` must have 1 to {MOST_PIPELINES} entries, not {}",
             given.len()
         )));
     }
     let wrong = |value: &Dynamic| {
         Mistake::new(format!(
-            "an entry of `pipelines` must be a name, not {}",
+            "an entry of `{what}` must be a name, not {}",
             arguments.describe(value)
         ))
-        .with_hint("or a name and values: `[\"tiled_forward\", #{ tile_size: \"8\" }]`")
+        .with_hint(format!("or a name and values: `[\"{example} }}]`"))
     };
     let read = |entry: &Dynamic| {
         if let Ok(name) = entry.clone().into_string() {
@@ -90,13 +107,13 @@ fn pipelines(arguments: &Arguments) -> Result<Vec<(String, Settings)>, Mistake> 
         };
         let name = name.clone().into_string().map_err(|_| wrong(name))?;
         let map = Map::from_iter([("values".into(), values.clone())]);
-        let options = Options::of(arguments, "measure", map);
+        let options = Options::of(arguments, call, map);
         Ok((name, options.settings("values")?))
     };
     given.iter().map(read).collect()
 }
 
-fn of_cost(pipeline: &str, cost: Cost) -> Map {
+pub(super) fn of_cost(pipeline: &str, cost: Cost) -> Map {
     let mut map = Map::new();
     let mut set = |name: &str, value: Dynamic| map.insert(name.into(), value);
     set("pipeline", pipeline.to_owned().into());

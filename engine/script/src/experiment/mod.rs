@@ -8,6 +8,7 @@ mod measuring;
 mod options;
 mod plots;
 mod saying;
+mod studies;
 #[cfg(test)]
 mod tests;
 
@@ -27,7 +28,9 @@ use crate::parameters;
 use crate::settings::Settings;
 use bench::Bench;
 
-pub use laboratory::{Chart, ChartCurve, Cost, Laboratory, LaboratoryError, Shot, Task, TimeSpan};
+pub use laboratory::{
+    Chart, ChartCurve, Cost, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan,
+};
 
 /// The folder of the experiments.
 pub const EXPERIMENTS: &str = "scripts/experiments";
@@ -101,6 +104,7 @@ fn host(
                 frames::register(api, &bench, path);
                 images::register(api);
                 measuring::register(api, &bench, path);
+                studies::register(api, &bench, path);
                 plots::register(api, &bench);
                 saying::register(api);
                 api.section("Parameters");
@@ -149,6 +153,10 @@ impl Laboratory for Nobody {
     }
 
     fn measure(&mut self, _: &Task) -> Result<Vec<Cost>, LaboratoryError> {
+        Self::refuse()
+    }
+
+    fn study(&mut self, _: &StudyTask) -> Result<Vec<StudyRow>, LaboratoryError> {
         Self::refuse()
     }
 

@@ -121,3 +121,71 @@ fn mistakes_in_measurements_and_plots_are_told() {
         }
     }
 }
+
+#[test]
+fn studies_ask_for_all_that_they_are_told_and_give_maps() {
+    let ran = run_with(
+        r#"
+        let rows = study("Lights", #{
+            scenes: ["hall", ["room", #{ seed: 3 }]],
+            pipelines: ["mine", ["yours", #{ tile_size: "8" }]],
+            sweep: #{ lights: [4, 16], "yours.fast": [true, false] },
+            size: [320, 180], reference: "traced", samples: 8, frames: 9, warmup: 2, start: 30,
+            step: 0.5, processes: 7, seconds: 3, out: "out/lights",
+        });
+        let row = rows[0];
+        print(`${row.point.lights} ${row.pipeline} ${row.gpu} ${row.flip} ${row.verdict}`);
+        study("Short", #{ scenes: ["hall"], pipelines: ["mine"], out: "out/a/b" });
+        "#,
+        &Settings::new(),
+    );
+    ran.result.unwrap();
+    assert_eq!(
+        ran.asked,
+        [
+            "Lights: hall [] room [seed=3] | mine [] yours [tile_size=8] | [(\"lights\", [\"4\", \"16\"]), \
+             (\"yours.fast\", [\"on\", \"off\"])] | (320, 180) Some(\"traced\") 8 2+9 30 Some(0.5) 7 3 out/lights",
+            "Short: hall [] | mine [] | [] | (640, 360) None 0 1+4 0 None 5 5 out/a/b",
+        ]
+    );
+    assert_eq!(ran.printed, ["4 mine 2.0 0.25 faster"]);
+}
+
+#[test]
+fn mistakes_in_studies_are_told() {
+    for (options, words) in [
+        (
+            "#{ }",
+            &["`scenes` of `study` must be an array of names, not nothing"][..],
+        ),
+        (
+            "#{ scenes: [], pipelines: [\"p\"], out: \"out/x\" }",
+            &["`scenes` of `study` must have 1 to 64 entries, not 0"],
+        ),
+        (
+            "#{ scenes: [\"s\"], pipelines: [\"p\"], out: \"x\" }",
+            &["`out` of `study` must be a folder below `out`"],
+        ),
+        (
+            "#{ scenes: [\"s\"], pipelines: [\"p\"], out: \"out/../x\" }",
+            &["`out` of `study` must be a folder below `out`"],
+        ),
+        (
+            "#{ scenes: [\"s\"], pipelines: [\"p\"], out: \"out/x\", sweep: #{ lights: 4 } }",
+            &["`sweep` of `study` must be a map from names to arrays"],
+        ),
+        (
+            "#{ scenes: [\"s\"], pipelines: [\"p\"], out: \"out/x\", seconds: 0 }",
+            &["`seconds` of `study` must be a number above 0"],
+        ),
+        (
+            "#{ scene: [\"s\"] }",
+            &["`study` has no option `scene`", "did you mean `scenes`?"],
+        ),
+    ] {
+        let told = told(&format!("study(\"x\", {options});"));
+        for word in words {
+            assert!(told.contains(word), "{told}");
+        }
+    }
+}

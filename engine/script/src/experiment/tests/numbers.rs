@@ -8,7 +8,9 @@ use lightbench_render::inspect::{
 };
 use lightbench_render::{Format, PipelineDesc, Place, RenderError, TargetImage};
 
-use crate::experiment::{Chart, Cost, Laboratory, LaboratoryError, Shot, Task, TimeSpan};
+use crate::experiment::{
+    Chart, Cost, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan,
+};
 use crate::settings::Settings;
 
 /// A laboratory whose frames are made of numbers that the tests know: red is x, green y, blue the
@@ -107,6 +109,52 @@ impl Laboratory for Numbers {
         };
         let before = TexelValue::Float([0.5, 0.25, 0.0, 1.0]);
         Ok(vec![value(0, None), value(1, Some(before))])
+    }
+
+    fn study(&mut self, task: &StudyTask) -> Result<Vec<StudyRow>, LaboratoryError> {
+        let named = |all: &[(String, Settings)]| {
+            let all = all
+                .iter()
+                .map(|(name, values)| format!("{name} [{}]", settings(values)));
+            all.collect::<Vec<_>>().join(" ")
+        };
+        self.note(format!(
+            "{}: {} | {} | {:?} | {:?} {:?} {} {}+{} {} {:?} {} {} {}",
+            task.title,
+            named(&task.scenes),
+            named(&task.pipelines),
+            task.sweep,
+            task.size,
+            task.reference,
+            task.samples,
+            task.warmup,
+            task.frames,
+            task.start,
+            task.step,
+            task.processes,
+            task.seconds,
+            task.out
+        ));
+        let span = TimeSpan {
+            median: 2.0,
+            low: 1.0,
+            high: 3.0,
+        };
+        Ok(vec![StudyRow {
+            point: vec![("lights".to_owned(), "4".to_owned())],
+            pipeline: "mine".to_owned(),
+            cost: Cost {
+                gpu: Some(span),
+                cpu: span,
+                draws: 1,
+                triangles: 2,
+                bytes: 3,
+                memory: 4,
+                counters: Vec::new(),
+            },
+            flip: Some(0.25),
+            verdict: "faster",
+        }])
     }
 
     fn measure(&mut self, task: &Task) -> Result<Vec<Cost>, LaboratoryError> {
