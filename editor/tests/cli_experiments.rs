@@ -303,6 +303,18 @@ fn the_shipped_experiments_run() {
     assert!(ran.stdout.contains("break-even"), "{}", ran.all());
     let plot = std::fs::read_to_string(project.file("out/break_even.svg")).unwrap();
     assert!(plot.contains("forward_single_pass") && plot.contains("tiled_forward"));
+    let short = ["processes=1", "most=16", "width=64"];
+    let short = short.map(|value| ["--set", value]).concat();
+    let ran = project.run(&[&["run", "when_lists_pay"][..], &short].concat());
+    let ran = ran.succeeded();
+    // A head, four pipelines at two numbers of lights, and what one process can't tell.
+    let rows = ran
+        .stdout
+        .lines()
+        .filter(|line| line.ends_with(" undecided") || line.ends_with(" same"));
+    assert_eq!(rows.count(), 8, "{}", ran.all());
+    assert!(ran.stdout.contains("None is faster"), "{}", ran.all());
+    assert!(project.file("out/when_lists_pay/report.html").exists());
     // Without a project everything runs that writes no picture.
     let folder = tempfile::tempdir().unwrap();
     let ran = run_in(folder.path(), &["run", "follow_a_pixel"], &[]).succeeded();

@@ -40,6 +40,10 @@ pub struct Arguments {
     /// Measure one share of the points alone, as for one of several machines
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Let each pipeline run with the fastest of the values that its file declares as tunable, found
+    /// first at each point; the report says which
+    #[arg(long)]
+    tune: bool,
     /// The report.json of an earlier run: says what became faster, slower or different. The exit status
     /// is 1 where something is slower, or has another picture or other counts
     #[arg(long, value_name = "OLD.json")]
@@ -64,21 +68,23 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
             .into());
         }
     }
-    let plan = arguments.plan.plan(&mut files)?;
-    let all = plan.points()?;
-    let points = share(all, arguments.shard);
-    let version = env!("CARGO_PKG_VERSION");
-    let store = Store::open(&arguments.out, &plan, version, arguments.restart)?;
-    if points.is_empty() {
-        note("this share has no point; there are more shares than points");
-        return Ok(());
-    }
+    let mut plan = arguments.plan.plan(&mut files)?;
     let command_line = this_command();
     let run = Run {
         files: &files,
         gpu: &arguments.plan.gpu,
         command_line: &command_line,
     };
+    let points = share(plan.points()?, arguments.shard);
+    if arguments.tune {
+        run.tune(&mut plan, &points, &arguments.out.join("tuning"))?;
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    let store = Store::open(&arguments.out, &plan, version, arguments.restart)?;
+    if points.is_empty() {
+        note("this share has no point; there are more shares than points");
+        return Ok(());
+    }
     let Ran { mut study, stopped } = run.measure(&store, &plan, &points)?;
     outcome::write(&mut study, &store, &points, &arguments.out)?;
     if stopped {

@@ -177,6 +177,7 @@ mod tests {
             kind: ParameterKind::Switch,
             default: ParameterValue::Switch(false),
             value: ParameterValue::Switch(false),
+            tunable: false,
         };
         PipelineDesc {
             name: name.to_owned(),

@@ -87,6 +87,7 @@ impl HeatMap {
             },
             default: off.clone(),
             value: off,
+            tunable: false,
         }
     }
 
@@ -104,6 +105,7 @@ impl HeatMap {
             },
             default: ParameterValue::Number(16.0),
             value: ParameterValue::Number(16.0),
+            tunable: false,
         }
     }
 

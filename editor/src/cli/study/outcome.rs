@@ -7,7 +7,7 @@ use lightbench::lab::report::format::{bytes, milliseconds};
 use lightbench::lab::report::summary::{clock_name, summarize};
 use lightbench::lab::report::{Comparison, write_study};
 use lightbench::lab::statistics::Summary;
-use lightbench::lab::study::{Planned, Store, Study};
+use lightbench::lab::study::{Planned, Store, Study, load_linear};
 
 use crate::cli::report::say;
 
@@ -21,7 +21,7 @@ pub fn write(
     points: &[Planned],
     folder: &Path,
 ) -> anyhow::Result<()> {
-    let _ = (store, points);
+    load_linear(study, store, points);
     write_study(study, folder)?;
     print(study)?;
     say(folder.join("report.html").display().to_string())

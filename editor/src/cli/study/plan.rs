@@ -147,6 +147,7 @@ impl PlanArguments {
             start: self.start,
             processes: self.processes,
             seconds: self.seconds,
+            tuned: Vec::new(),
             outside: files.grants().to_vec(),
         })
     }

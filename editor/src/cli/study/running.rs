@@ -8,14 +8,16 @@ use std::path::Path;
 use anyhow::{Context as _, anyhow};
 use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
+use lightbench::lab::study::tuning::{choose, tuning_plan};
 use lightbench::lab::study::{
     Launch, Plan, Planned, ProcessError, Store, Study, Told, drop_stale, in_words, join,
     run_processes,
 };
+use lightbench::script::{Settings, load_pipeline};
 
 use crate::cli::arguments::GpuArguments;
 use crate::cli::progress::{Bar, stop_on_ctrl_c};
-use crate::cli::report::{Said, Stopped, note, warn};
+use crate::cli::report::{self, Said, Stopped, note, warn};
 
 /// Where and how it is measured.
 pub struct Run<'a> {
@@ -99,6 +101,38 @@ impl Run<'_> {
             note("stopped; the report holds what is measured, and the same command goes on");
         }
         Ok(Ran { study, stopped })
+    }
+}
+
+impl Run<'_> {
+    /// Finds the fastest values of each pipeline at each point, and puts them into the plan.
+    ///
+    /// # Errors
+    /// As [`Run::measure`]; also where it was stopped.
+    pub fn tune(&self, plan: &mut Plan, points: &[Planned], folder: &Path) -> anyhow::Result<()> {
+        let mut descriptions = Vec::new();
+        for choice in &plan.pipelines {
+            let mut settings = Settings::new();
+            for setting in &choice.settings {
+                settings.set(setting.name.as_str(), setting.value.as_str());
+            }
+            let desc = load_pipeline(self.files, &choice.path, &settings);
+            descriptions.push(desc.map_err(|problems| report::problems(self.files, problems))?);
+        }
+        let tuning = tuning_plan(plan, &descriptions);
+        let store = Store::open(folder, &tuning, env!("CARGO_PKG_VERSION"), false)
+            .or_else(|_| Store::open(folder, &tuning, env!("CARGO_PKG_VERSION"), true))?;
+        note(format!(
+            "tuning: {} variants of {} pipelines",
+            tuning.pipelines.len(),
+            plan.pipelines.len()
+        ));
+        let Ran { study, stopped } = self.measure(&store, &tuning, points)?;
+        if stopped {
+            return Err(Stopped.into());
+        }
+        choose(plan, &study);
+        Ok(())
     }
 }
 

@@ -111,6 +111,7 @@ fn plan(task: &StudyTask, outside: &[std::path::PathBuf]) -> Result<Plan, Labora
         start: task.start,
         processes: task.processes,
         seconds: task.seconds,
+        tuned: Vec::new(),
         outside: outside.to_vec(),
     })
 }

@@ -55,6 +55,8 @@ pub struct MeasureOptions {
     /// Whether after every second frame one is drawn whose passes are not timed, so that the cost of
     /// the queries is known.
     pub unqueried: bool,
+    /// Whether pictures are taken, in frames of their own before the warm-up.
+    pub pictures: bool,
     /// Seconds for each pipeline. A frame that would end later is not begun, but one is always
     /// measured.
     pub seconds: f64,
@@ -70,6 +72,7 @@ impl Default for MeasureOptions {
             step: STEP,
             start: 0,
             unqueried: false,
+            pictures: true,
             seconds: f64::INFINITY,
         }
     }
@@ -78,7 +81,8 @@ impl Default for MeasureOptions {
 /// What came out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
-    /// One result a pipeline, in the order given, each with its picture of the first frame.
+    /// One result a pipeline, in the order given, with its picture of the first frame if they were asked
+    /// for.
     pub pipelines: Vec<PipelineResult>,
     /// The same pictures in linear light, by the pipeline's name, where it names such a target.
     pub linear: BTreeMap<String, HdrImage>,
@@ -126,7 +130,10 @@ pub fn measure(
         progress.begin("moving the scene to its start", 0.0)?;
         bench.step(frame)?;
     }
-    let pictures = bench.pictures()?;
+    let pictures = match options.pictures {
+        true => bench.pictures()?,
+        false => Pictures::new(),
+    };
     bench.warm_up()?;
     bench.measure()?;
     bench.finish(pictures)
@@ -327,16 +334,18 @@ impl<'a> Bench<'a> {
             ..Measurement::default()
         };
         let cut_short = self.measured < self.options.frames && self.progress.is_cancelled();
-        for (index, (output, linear)) in pictures.into_iter().enumerate() {
+        let mut pictures = pictures.into_iter();
+        for index in 0..self.pipelines.len() {
             let pipeline = &self.pipelines[index];
             let series = &self.series[index];
             let mut result = series.clone().finish(pipeline, &missing);
             result.cut = !cut_short && result.frame_cpu_ms.len() < self.options.frames as usize;
             result.process_frames = vec![result.frame_cpu_ms.len() as u32];
             result.settled_after = vec![self.clocks[index].warming.len() as u32];
-            result.picture = Some(output);
-            if let Some(hdr) = linear {
-                measurement.linear.insert(result.name.clone(), hdr);
+            if let Some((output, linear)) = pictures.next() {
+                result.picture = Some(output);
+                let linear = linear.map(|hdr| (result.name.clone(), hdr));
+                measurement.linear.extend(linear);
             }
             measurement.pipelines.push(result);
         }

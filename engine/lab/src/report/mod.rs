@@ -18,7 +18,7 @@ mod write;
 
 pub use model::{
     AbilityResult, Adapter, Comparison, CounterResult, Input, Machine, Parameter, PassResult,
-    PipelineResult, ProcessRecord, SCHEMA, Seed, SystemResult, TargetResult,
+    PipelineResult, ProcessRecord, SCHEMA, Seed, SystemResult, TargetResult, ViewResult,
 };
 pub use study_files::{read_study, write_study};
 pub use write::{ReportFiles, read_json, to_json, write_report};

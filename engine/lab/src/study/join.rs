@@ -133,7 +133,14 @@ fn append_optional(ours: &mut Option<Vec<f64>>, theirs: &mut Option<Vec<f64>>) {
 
 /// Puts the pictures in linear light beside those that a display shows.
 pub fn load_linear(study: &mut Study, store: &Store, points: &[Planned]) {
-    let _ = (study, store, points);
+    for point in &mut study.points {
+        let Some(planned) = points.iter().find(|planned| planned.key == point.key) else {
+            continue;
+        };
+        for (index, result) in point.comparison.pipelines.iter_mut().enumerate() {
+            result.linear = store.linear(planned, index);
+        }
+    }
 }
 
 /// Removes what was measured with files that have changed since, and names these.

@@ -37,6 +37,9 @@ pub struct Plan {
     pub processes: u32,
     /// Seconds for one pipeline at one point, over all processes.
     pub seconds: f64,
+    /// Values of pipelines' parameters that were chosen because they are the fastest at a point.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tuned: Vec<Tuned>,
     /// Folders outside of the project that scenes and pipelines are read from: `@0/` begins the paths
     /// of those in the first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -57,6 +60,18 @@ pub struct Choice {
     pub path: String,
     /// Names of parameters with their values as text.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub settings: Vec<Parameter>,
+}
+
+/// Values that a pipeline has at one point.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tuned {
+    /// The point.
+    pub key: String,
+    /// The pipeline's name in the report.
+    pub pipeline: String,
+    /// All of its values.
     pub settings: Vec<Parameter>,
 }
 

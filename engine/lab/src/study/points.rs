@@ -163,7 +163,12 @@ impl Plan {
         name: &str,
         has: impl Fn(&str) -> bool,
     ) -> Settings {
-        let mut settings = given(pipeline);
+        let tuned = self.tuned.iter();
+        let mut tuned = tuned.filter(|tuned| tuned.key == point.key && tuned.pipeline == name);
+        let mut settings = match tuned.next() {
+            Some(tuned) => settings_of(&tuned.settings),
+            None => given(pipeline),
+        };
         for coordinate in &point.coordinates[1..] {
             match coordinate.name.rsplit_once('.') {
                 Some(("*", parameter)) if has(parameter) => {
@@ -217,8 +222,12 @@ impl Axis {
 }
 
 fn given(choice: &Choice) -> Settings {
+    settings_of(&choice.settings)
+}
+
+fn settings_of(parameters: &[Parameter]) -> Settings {
     let mut settings = Settings::new();
-    for setting in &choice.settings {
+    for setting in parameters {
         settings.set(setting.name.as_str(), setting.value.as_str());
     }
     settings

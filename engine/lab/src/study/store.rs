@@ -162,6 +162,9 @@ impl Store {
             };
             pipeline.picture_file = png(&pipeline.picture, format!("{stem}-{index}.png"))?;
             pipeline.heat_map_file = png(&pipeline.heat_map, format!("{stem}-{index}-flip.png"))?;
+            for (number, view) in pipeline.views.iter_mut().enumerate() {
+                view.file = png(&view.picture, format!("{stem}-{index}-view{number}.png"))?;
+            }
             if let Some(picture) = linear(&pipeline.name) {
                 let path = self.path(&format!("{stem}-{index}.exr"));
                 save_linear(&path, &picture)?;
@@ -188,6 +191,9 @@ impl Store {
         for pipeline in &mut part.comparison.pipelines {
             pipeline.picture = self.picture(pipeline.picture_file.take())?;
             pipeline.heat_map = self.picture(pipeline.heat_map_file.take())?;
+            for view in &mut pipeline.views {
+                view.picture = self.picture(view.file.take())?;
+            }
         }
         Ok(Some(part))
     }
@@ -200,7 +206,7 @@ impl Store {
         }
     }
 
-    /// The picture of a pipeline, by its place in the plan, in linear light.
+    /// The picture of a pipeline, by its place in the comparison, in linear light.
     pub fn linear(&self, point: &Planned, pipeline: usize) -> Option<HdrImage> {
         let path = self.path(&format!("{}-{pipeline}.exr", Self::stem(point, 0)));
         match Picture::open(&path) {

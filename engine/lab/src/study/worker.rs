@@ -15,6 +15,7 @@ use lightbench_world::{Camera, Name};
 use super::model::{Plan, TRACED};
 use super::points::{PlanError, Planned};
 use super::store::Store;
+use super::views;
 use crate::diff::DiffOptions;
 use crate::measure::{
     Inputs, MeasureError, MeasureOptions, Measurement, load_average, measure, processor_mhz,
@@ -156,6 +157,8 @@ impl Worker<'_> {
             step: self.plan.step,
             start: point.start,
             unqueried: true,
+            // The pictures of the first process are the study's.
+            pictures: self.process.index == 0,
             seconds: self.plan.seconds / f64::from(self.plan.processes.max(1)),
         };
         let traced = self.traced(point, &mut scene)?;
@@ -205,6 +208,9 @@ impl Worker<'_> {
         } else {
             let linear = |name: &str| measured.linear.get(name);
             comparison.compare_pictures(linear, DiffOptions::default())?;
+        }
+        if self.process.index == 0 {
+            self.add_views(point, &mut comparison)?;
         }
         Ok((comparison, measured))
     }
@@ -277,6 +283,55 @@ impl Worker<'_> {
                 self.compiled.insert(key, pipeline);
             }
         }
+    }
+
+    /// Counts the lights that each pixel evaluates, at the point's first moment, in pipelines of their
+    /// own: counting costs time.
+    fn add_views(
+        &mut self,
+        point: &Planned,
+        comparison: &mut Comparison,
+    ) -> Result<(), StudyError> {
+        let mut scene = self.scene(point)?;
+        for frame in 1..=point.start {
+            let step = self.plan.step;
+            let moved = scene.update(f64::from(frame) * step, step);
+            moved.map_err(Problems::from)?;
+        }
+        self.renderer.reset_scene();
+        let others = scene.has_update() || scene.assets.reflection_models().has_others();
+        let variants = if others {
+            Variants::ALL
+        } else {
+            Variants::DEFAULT_MODEL
+        };
+        let mut counts = Vec::new();
+        for index in 0..self.plan.pipelines.len() {
+            let (settings, desc) = self.settings(point, index)?;
+            self.progress
+                .begin(format!("counting the lights of {}", desc.name), 1.0)?;
+            let settings = settings.with("heat_map", views::COUNTED);
+            // A pipeline without heat maps has no such view.
+            let path = &self.plan.pipelines[index].path;
+            let Ok(desc) = load_pipeline(&self.files, path, &settings) else {
+                counts.push(None);
+                continue;
+            };
+            let compiled = self.compiler.compile_for(&self.files, &desc, variants);
+            let Ok(mut pipeline) = compiled else {
+                counts.push(None);
+                continue;
+            };
+            let counted = views::count(&mut self.renderer, &mut scene, &mut pipeline, point.size);
+            counts.push(counted.map_err(MeasureError::from)?);
+        }
+        // What it says of these frames it has said of those that were measured.
+        self.renderer.take_warnings();
+        let results = comparison.pipelines.iter_mut().filter(|p| p.name != TRACED);
+        for (result, view) in results.zip(views::paint(&counts)) {
+            result.views.extend(view);
+        }
+        Ok(())
     }
 
     /// The picture of the path tracer, where it is the reference and this process takes pictures.

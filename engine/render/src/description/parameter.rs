@@ -61,9 +61,23 @@ pub struct Parameter {
     pub default: ParameterValue,
     /// The value in force.
     pub value: ParameterValue,
+    /// Whether it changes what the pipeline costs and not what it shows, so that measurements may
+    /// choose it.
+    pub tunable: bool,
 }
 
 impl Parameter {
+    /// The values that a measurement may choose from, as text: all of a choice, or of a switch. Empty
+    /// where it may choose none.
+    pub fn tuned_values(&self) -> Vec<String> {
+        match &self.kind {
+            _ if !self.tunable => Vec::new(),
+            ParameterKind::Choice { options } => options.clone(),
+            ParameterKind::Switch => vec!["on".to_owned(), "off".to_owned()],
+            ParameterKind::Number { .. } => Vec::new(),
+        }
+    }
+
     /// Reads a value from text, as the command line gives it, and checks it against the kind.
     ///
     /// # Errors
@@ -131,6 +145,7 @@ mod tests {
             },
             default: ParameterValue::Choice("hable".into()),
             value: ParameterValue::Choice("linear".into()),
+            tunable: false,
         };
         assert_eq!(parameter.shader_value(), 1.0);
         assert_eq!(

@@ -197,6 +197,7 @@ fn output(desc: &mut PipelineDesc) {
         },
         default: ParameterValue::Number(0.0),
         value: ParameterValue::Number(0.0),
+        tunable: false,
     };
     let curves = ["hable", "reinhard", "hejl", "linear"]
         .map(String::from)

@@ -66,6 +66,24 @@ pub(super) fn register(api: &mut Api) {
             },
         );
     }
+    method(
+        api,
+        "tunable(parameter)",
+        "Says that a switch or a choice changes what the pipeline costs and not what it shows, as the side \
+         of a tile does. `lightbench compare --tune` measures the pipeline with the fastest of its values.",
+        |builder, arguments, _| {
+            let parameter = declared(builder, &arguments.text(0)?)?;
+            if matches!(parameter.kind, ParameterKind::Number { .. }) {
+                let message = format!(
+                    "`{}` is a number, and has too many values to try",
+                    parameter.name
+                );
+                return Err(Mistake::new(message).with_hint("declare it with `.choice`"));
+            }
+            parameter.tunable = true;
+            Ok(())
+        },
+    );
     for form in ["about(parameter, text)", "about(parameter, text, unit)"] {
         method(
             api,
@@ -77,22 +95,31 @@ pub(super) fn register(api: &mut Api) {
                     3 => arguments.text(2)?,
                     _ => String::new(),
                 };
-                let parameters = &mut builder.desc.parameters;
-                let Some(parameter) = parameters.iter_mut().find(|p| p.name == name) else {
-                    let known = parameters.iter().map(|p| p.name.as_str());
-                    let mistake = Mistake::new(format!("there is no parameter `{name}`"));
-                    return Err(match suggestion(&name, known) {
-                        Some(hint) => mistake.with_hint(hint),
-                        None => mistake
-                            .with_hint("declare it above, with `.number`, `.switch` or `.choice`"),
-                    });
-                };
+                let parameter = declared(builder, &name)?;
                 parameter.description = text;
                 parameter.unit = unit;
                 Ok(())
             },
         );
     }
+}
+
+/// The parameter of a name that was declared before.
+fn declared<'a>(builder: &'a mut Builder, name: &str) -> Result<&'a mut Parameter, Mistake> {
+    let parameters = &mut builder.desc.parameters;
+    let known: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
+    parameters
+        .iter_mut()
+        .find(|p| p.name == name)
+        .ok_or_else(|| {
+            let mistake = Mistake::new(format!("there is no parameter `{name}`"));
+            match suggestion(name, known.iter().map(String::as_str)) {
+                Some(hint) => mistake.with_hint(hint),
+                None => {
+                    mistake.with_hint("declare it above, with `.number`, `.switch` or `.choice`")
+                }
+            }
+        })
 }
 
 fn choice(arguments: &Arguments) -> Result<(ParameterKind, ParameterValue), Mistake> {
@@ -167,6 +194,7 @@ fn parameter(
         unit: String::new(),
         kind,
         value: default.clone(),
+        tunable: false,
         default,
     };
     let mut parameter = match kind(arguments) {
