@@ -10,10 +10,10 @@ use crate::{HdrImage, LabError, LdrImage};
 
 /// Version of the data model. It grows when a field changes its meaning or goes away; a new field
 /// that older readers may ignore does not change it.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// Several pipelines measured on one scene, machine and adapter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
     /// [`SCHEMA`].
     pub schema: u32,
@@ -206,6 +206,26 @@ pub struct PipelineResult {
     /// FLIP of each pixel, painted with magma from 0 to 1; not part of the JSON.
     #[serde(skip)]
     pub heat_map: Option<LdrImage>,
+    /// The picture before the tone curve, in linear light; not part of the JSON.
+    #[serde(skip)]
+    pub linear: Option<HdrImage>,
+    /// Counts a pixel as pictures, such as the lights that each pixel evaluated.
+    #[serde(default)]
+    pub views: Vec<ViewResult>,
+}
+
+/// A count a pixel as a picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ViewResult {
+    /// What is counted, as `lights evaluated`. Views of one name are compared with each other.
+    pub name: String,
+    /// What the colours mean: the map and the count that its last colour stands for.
+    pub description: String,
+    /// File of the picture beside the JSON file.
+    pub file: Option<String>,
+    /// The picture; not part of the JSON.
+    #[serde(skip)]
+    pub picture: Option<LdrImage>,
 }
 
 /// A number that shaders counted, as lights on lists.
