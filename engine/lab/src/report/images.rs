@@ -174,11 +174,8 @@ fn hold(points: &[&Comparison], encoded: &mut [Vec<Encoded>], mut budget: usize)
         .iter_mut()
         .flatten()
         .for_each(|e| e.held.heat_map = take(&e.heat_map));
-    // Views and linear pictures of a point are held for all pipelines or for none: they are there
-    // to be compared.
-    for e in encoded.iter_mut() {
-        e.iter_mut()
-            .for_each(|e| e.held.views = e.views.iter().fold(true, |all, v| take(v) && all));
+    for e in encoded.iter_mut().flatten() {
+        e.held.views = !e.views.is_empty() && e.views.iter().fold(true, |all, v| take(v) && all);
     }
     for e in encoded.iter_mut() {
         e.iter_mut().for_each(|e| e.held.linear = take(&e.linear));

@@ -84,6 +84,7 @@
       const { picture } = await load(shot);
       [shot.width, shot.height] = [picture.width, picture.height];
       shot.getContext("2d").putImageData(picture, 0, 0);
+      shot.dataset.filled = "true";
     }
   };
 
