@@ -40,7 +40,10 @@ fn picture(pipeline: u64, point: u64, [width, height]: [u32; 2]) -> LdrImage {
     let shift = if pipeline == 0 { 0.0 } else { 0.0015 };
     LdrImage::from_fn(width, height, |x, y| {
         let at = u64::from(y * width + x);
-        let (u, v) = (f64::from(x) / f64::from(width), f64::from(y) / f64::from(height));
+        let (u, v) = (
+            f64::from(x) / f64::from(width),
+            f64::from(y) / f64::from(height),
+        );
         let grain = (hash(at ^ point << 32) % 17) as f64 - 8.0;
         let mut light = 60.0 + 90.0 * v + grain;
         for ball in 0..6_u64 {
@@ -59,7 +62,9 @@ fn picture(pipeline: u64, point: u64, [width, height]: [u32; 2]) -> LdrImage {
 
 fn times(median: f64, seed: u64, count: u64) -> Vec<f64> {
     let spread = |i: u64| (hash(seed << 20 ^ i) % 1000) as f64 / 1000.0 - 0.5;
-    (0..count).map(|i| median * (1.0 + 0.03 * spread(i))).collect()
+    (0..count)
+        .map(|i| median * (1.0 + 0.03 * spread(i)))
+        .collect()
 }
 
 fn pipeline(number: usize, point: u64, lights: f64, size: [u32; 2]) -> PipelineResult {

@@ -14,7 +14,11 @@ fn the_example_reads_what_a_report_writes() {
     let mut study = data::study(3, 2, [32, 18]);
     write_study(&mut study, folder.path()).unwrap();
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/read_report.py");
-    let Ok(output) = Command::new("python3").arg(example).arg(folder.path()).output() else {
+    let Ok(output) = Command::new("python3")
+        .arg(example)
+        .arg(folder.path())
+        .output()
+    else {
         return;
     };
     let said = String::from_utf8_lossy(&output.stdout);

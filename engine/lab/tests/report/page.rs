@@ -8,7 +8,7 @@ use super::{browser, data};
 
 /// What a reader does, as a script that waits for the viewer to draw; it writes what it saw into
 /// attributes of the body.
-const READER: &str = r#"<script>
+const READER: &str = r##"<script>
 (async () => {
   const id = (name) => document.getElementById(name);
   const seen = document.body.dataset;
@@ -71,7 +71,7 @@ const READER: &str = r#"<script>
     seen.done = String(error);
   }
 })();
-</script>"#;
+</script>"##;
 
 /// The values of an attribute.
 fn attributes<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
@@ -113,11 +113,18 @@ fn thirteen_pipelines_at_four_points_work_in_a_browser() {
     }
 
     let copy = folder.path().join("read.html");
-    std::fs::write(&copy, page.replacen("</body>", &format!("{READER}</body>"), 1)).unwrap();
+    std::fs::write(
+        &copy,
+        page.replacen("</body>", &format!("{READER}</body>"), 1),
+    )
+    .unwrap();
     let Some((document, errors)) = browser::open(&copy) else {
         return;
     };
-    let said: Vec<&str> = errors.lines().filter(|line| line.contains("CONSOLE")).collect();
+    let said: Vec<&str> = errors
+        .lines()
+        .filter(|line| line.contains("CONSOLE"))
+        .collect();
     assert!(said.is_empty(), "{said:?}");
     let body = document.find("<body").unwrap();
     let body = &document[body..];
@@ -139,9 +146,13 @@ fn thirteen_pipelines_at_four_points_work_in_a_browser() {
     assert!(seen("pixel").starts_with("Pixel "), "{body}");
     // A picture that is held as a difference comes out as it was, to the bit.
     let delta = seen("delta");
-    let (shot, rgb) = delta.split_once(' ').expect("a picture is held as a difference");
+    let (shot, rgb) = delta
+        .split_once(' ')
+        .expect("a picture is held as a difference");
     let number: usize = shot.split('-').nth(1).unwrap().parse().unwrap();
-    let picture = study.points[2].comparison.pipelines[number].picture.as_ref();
+    let picture = study.points[2].comparison.pipelines[number]
+        .picture
+        .as_ref();
     let [r, g, b, _] = picture.unwrap().pixels[12_345];
     assert_eq!(rgb, format!("{r} {g} {b}"));
 }

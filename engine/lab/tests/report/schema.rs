@@ -34,7 +34,12 @@ fn every_field_and_column_is_documented() {
     for path in &files.csv {
         let table = std::fs::read_to_string(path).unwrap();
         let header = table.lines().next().unwrap();
-        found.extend(header.split(',').filter(|c| !c.starts_with("at_")).map(str::to_owned));
+        found.extend(
+            header
+                .split(',')
+                .filter(|c| !c.starts_with("at_"))
+                .map(str::to_owned),
+        );
     }
     let missing: Vec<&String> = found
         .iter()
@@ -46,7 +51,12 @@ fn every_field_and_column_is_documented() {
     // Written and read, the data are the same, but for pixels, which the file does not hold.
     let mut read = read_json(&files.json).unwrap();
     for (read, point) in read.points.iter_mut().zip(&study.points) {
-        for (read, p) in read.comparison.pipelines.iter_mut().zip(&point.comparison.pipelines) {
+        for (read, p) in read
+            .comparison
+            .pipelines
+            .iter_mut()
+            .zip(&point.comparison.pipelines)
+        {
             (read.picture, read.heat_map) = (p.picture.clone(), p.heat_map.clone());
             read.linear = p.linear.clone();
             for (read, view) in read.views.iter_mut().zip(&p.views) {
