@@ -19,8 +19,15 @@ const READER: &str = r##"<script>
     for (let i = 0; i < 400 && Number(id("viewer").dataset.drawn ?? 0) <= before; i++) await wait(25);
   };
   const canvas = id("view-canvas");
+  const pixels = (canvas) => {
+    const sheet = document.createElement("canvas");
+    [sheet.width, sheet.height] = [canvas.width, canvas.height];
+    const pen = sheet.getContext("2d", { willReadFrequently: true });
+    pen.drawImage(canvas, 0, 0);
+    return pen.getImageData(0, 0, sheet.width, sheet.height).data;
+  };
   const shown = () => {
-    const all = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    const all = pixels(canvas);
     let sum = 0;
     for (let i = 0; i < all.length; i += 4) sum = (sum * 31 + all[i] + 7 * all[i + 1]) % 1000003;
     return sum;
@@ -63,7 +70,7 @@ const READER: &str = r##"<script>
     const delta = document.querySelector("canvas.shot[data-point='3']");
     for (let i = 0; i < 400 && delta && delta.dataset.filled !== "true"; i++) await wait(25);
     if (delta) {
-      const rgb = delta.getContext("2d").getImageData(0, 0, delta.width, delta.height).data;
+      const rgb = pixels(delta);
       seen.delta = `${delta.id} ${[...rgb.slice(4 * 12345, 4 * 12345 + 3)].join(" ")}`;
     }
     seen.done = "true";

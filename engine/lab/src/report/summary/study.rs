@@ -187,7 +187,7 @@ fn most_different(study: &Study) -> Option<usize> {
         let means = pipelines
             .iter()
             .filter_map(|p| Some(p.difference.as_ref()?.flip.mean));
-        means.map(f64::from).fold(0.0, f64::max)
+        means.fold(0.0, f64::max)
     };
     (0..study.points.len())
         .filter(|index| largest(index) > 0.0)
