@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lightbench::assets::files::Files;
-use lightbench::lab::report::read_study;
+use lightbench::lab::report::read_json;
 use lightbench::lab::study::{Planned, Shard, Store};
 
 use super::project;
@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     project::writable(&arguments.out.join("report.html"))?;
     if let Some(old) = &arguments.against {
         // Read before anything is measured.
-        read_study(old)?;
+        read_json(old)?;
         let folder = old.parent().and_then(|folder| folder.canonicalize().ok());
         if folder.is_some() && folder == arguments.out.canonicalize().ok() {
             return Err(Usage(format!(

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use lightbench::lab::report::format::significant;
-use lightbench::lab::report::read_study;
+use lightbench::lab::report::read_json;
 use lightbench::lab::statistics::Interval;
 use lightbench::lab::study::Study;
 use lightbench::lab::study::history::{Change, Changes, PictureChange, TimeChange, Told, changes};
@@ -17,7 +17,7 @@ use crate::cli::report::{note, say};
 /// # Errors
 /// A file that can't be read.
 pub fn compare(study: &Study, folder: &Path, old: &Path) -> anyhow::Result<bool> {
-    let before = read_study(old)?;
+    let before = read_json(old)?;
     let old_folder = old.parent().context("the old report has no folder")?;
     let found = changes(
         Told { study, folder },

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use clap::Args;
 use lightbench::assets::files::Files;
-use lightbench::lab::report::read_study;
+use lightbench::lab::report::read_json;
 use lightbench::lab::study::bundle::{pack, unpack};
 use lightbench::lab::study::history::{Change, PictureChange, TimeChange, Told, changes};
 use lightbench::lab::study::{Plan, Store};
@@ -46,7 +46,7 @@ pub fn bundle(arguments: &BundleArguments, mut files: Files) -> anyhow::Result<(
         .into());
     }
     project::writable(&arguments.out)?;
-    let study = read_study(&arguments.report.join("report.json"))?;
+    let study = read_json(&arguments.report.join("report.json"))?;
     files.grant_again(&study.plan.outside);
     pack(&study, &arguments.report, &files, &arguments.out)?;
     say(arguments.out.display().to_string())
@@ -98,7 +98,7 @@ pub fn reproduce(arguments: &ReproduceArguments) -> anyhow::Result<()> {
         return Err(Stopped.into());
     }
     let old = unpacked.report.join("report.json");
-    let before = read_study(&old)?;
+    let before = read_json(&old)?;
     let found = changes(
         Told {
             study: &study,

@@ -4,44 +4,85 @@
 
 use super::model::{Comparison, PipelineResult};
 use crate::statistics::Summary;
+use crate::study::Study;
 
 /// A table in the making.
 pub(crate) struct Table {
-    text: String,
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
 }
 
 impl Table {
     /// A table with its header line.
     pub(crate) fn new(header: &[&str]) -> Self {
-        let mut table = Self {
-            text: String::new(),
-        };
-        table.row(header.iter().map(|h| (*h).to_owned()));
-        table
+        Self {
+            header: header.iter().map(|h| (*h).to_owned()).collect(),
+            rows: Vec::new(),
+        }
     }
 
     /// Adds a row.
     pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        for (i, cell) in cells.into_iter().enumerate() {
-            if i > 0 {
-                self.text.push(',');
-            }
-            if cell.contains([',', '"', '\n', '\r']) {
-                self.text.push('"');
-                self.text.push_str(&cell.replace('"', "\"\""));
-                self.text.push('"');
-            } else {
-                self.text.push_str(&cell);
-            }
-        }
-        self.text.push_str("\r\n");
+        self.rows.push(cells.into_iter().collect());
     }
 
     /// The table so far.
     pub(crate) fn text(self) -> String {
-        self.text
+        let mut text = String::new();
+        for row in std::iter::once(&self.header).chain(&self.rows) {
+            for (i, cell) in row.iter().enumerate() {
+                if i > 0 {
+                    text.push(',');
+                }
+                if cell.contains([',', '"', '\n', '\r']) {
+                    text.push('"');
+                    text.push_str(&cell.replace('"', "\"\""));
+                    text.push('"');
+                } else {
+                    text.push_str(cell);
+                }
+            }
+            text.push_str("\r\n");
+        }
+        text
     }
 }
+
+/// One table of all points: before the columns of `table` the point's key and a column
+/// `at_NAME` for each coordinate.
+pub(crate) fn of_study(study: &Study, table: fn(&Comparison) -> Table) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for coordinate in study.points.iter().flat_map(|point| &point.coordinates) {
+        if !names.contains(&coordinate.name.as_str()) {
+            names.push(&coordinate.name);
+        }
+    }
+    let mut all = Table::new(&["point"]);
+    all.header
+        .extend(names.iter().map(|name| format!("at_{name}")));
+    all.header.extend(table(&Comparison::default()).header);
+    for point in &study.points {
+        let place = names.iter().map(|name| {
+            let found = point.coordinates.iter().find(|c| c.name == *name);
+            found.map_or_else(String::new, |c| c.value.clone())
+        });
+        let place: Vec<String> = std::iter::once(point.key.clone()).chain(place).collect();
+        let rows = table(&point.comparison).rows.into_iter();
+        all.rows
+            .extend(rows.map(|row| [place.clone(), row].concat()));
+    }
+    all.text()
+}
+
+/// The tables of a report with their files' names.
+pub(crate) const TABLES: [(&str, fn(&Comparison) -> Table); 6] = [
+    ("pipelines.csv", pipelines),
+    ("systems.csv", systems),
+    ("passes.csv", passes),
+    ("frames.csv", frames),
+    ("targets.csv", targets),
+    ("counters.csv", counters),
+];
 
 pub(crate) fn cell<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(String::new, |v| v.to_string())
@@ -52,7 +93,7 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 /// One row a pipeline: frame times, memory and picture metrics.
-pub fn pipelines(c: &Comparison) -> String {
+pub(crate) fn pipelines(c: &Comparison) -> Table {
     let mut table = Table::new(&[
         "pipeline",
         "scene",
@@ -69,6 +110,8 @@ pub fn pipelines(c: &Comparison) -> String {
         "cpu_low_ms",
         "cpu_high_ms",
         "cpu_p95_ms",
+        "processes",
+        "cut",
         "target_bytes",
         "flip_mean",
         "flip_p99",
@@ -93,11 +136,13 @@ pub fn pipelines(c: &Comparison) -> String {
         ];
         row.extend(times(p.gpu_samples().and_then(Summary::of)));
         row.extend(times(Summary::of(&p.frame_cpu_ms)));
+        row.push(c.processes.len().max(1).to_string());
+        row.push(p.cut.to_string());
         row.push(p.target_bytes_total.to_string());
         row.extend(picture(p));
         table.row(row);
     }
-    table.text
+    table
 }
 
 fn times(summary: Option<Summary>) -> [String; 4] {
@@ -128,7 +173,7 @@ fn picture(p: &PipelineResult) -> [String; 10] {
 }
 
 /// One row a pass: times, counts and modelled bytes.
-pub fn passes(c: &Comparison) -> String {
+pub(crate) fn passes(c: &Comparison) -> Table {
     let mut table = Table::new(&[
         "pipeline",
         "pass",
@@ -178,11 +223,11 @@ pub fn passes(c: &Comparison) -> String {
             table.row(row);
         }
     }
-    table.text
+    table
 }
 
 /// One row a system of a pipeline's frames: CPU time of the thread that ran it.
-pub fn systems(c: &Comparison) -> String {
+pub(crate) fn systems(c: &Comparison) -> Table {
     let mut table = Table::new(&[
         "pipeline",
         "system",
@@ -198,29 +243,52 @@ pub fn systems(c: &Comparison) -> String {
             table.row(row);
         }
     }
-    table.text
+    table
 }
 
-/// One row a measured frame of a pipeline.
-pub fn frames(c: &Comparison) -> String {
-    let mut table = Table::new(&["pipeline", "frame", "gpu_ms", "cpu_ms"]);
+/// One row a measured frame of a pipeline, with the process that measured it.
+pub(crate) fn frames(c: &Comparison) -> Table {
+    let mut table = Table::new(&[
+        "pipeline", "process", "frame", "gpu_ms", "cpu_ms", "wall_ms",
+    ]);
     for p in &c.pipelines {
-        let gpu = p.frame_gpu_ms.as_deref().unwrap_or_default();
-        for frame in 0..gpu.len().max(p.frame_cpu_ms.len()) {
-            let at = |samples: &[f64]| cell(samples.get(frame).copied().and_then(finite));
+        let series = [
+            p.frame_gpu_ms.as_deref().unwrap_or_default(),
+            &p.frame_cpu_ms,
+            &p.frame_wall_ms,
+        ];
+        let parts = series.map(|series| p.by_process(series));
+        for process in 0..parts[0].len() {
+            let parts = parts.each_ref().map(|parts| parts[process]);
+            let longest = parts.iter().map(|part| part.len()).max().unwrap_or(0);
+            for frame in 0..longest {
+                let mut row = vec![p.name.clone(), process.to_string(), frame.to_string()];
+                row.extend(parts.map(|part| cell(part.get(frame).copied().and_then(finite))));
+                table.row(row);
+            }
+        }
+    }
+    table
+}
+
+/// One row a counter of a pipeline: the median over the measured frames.
+pub(crate) fn counters(c: &Comparison) -> Table {
+    let mut table = Table::new(&["pipeline", "counter", "description", "median"]);
+    for p in &c.pipelines {
+        for counter in &p.counters {
             table.row([
                 p.name.clone(),
-                frame.to_string(),
-                at(gpu),
-                at(&p.frame_cpu_ms),
+                counter.name.clone(),
+                counter.description.clone(),
+                cell(Summary::of(&counter.values).map(|s| s.median)),
             ]);
         }
     }
-    table.text
+    table
 }
 
 /// One row a target.
-pub fn targets(c: &Comparison) -> String {
+pub(crate) fn targets(c: &Comparison) -> Table {
     let mut table = Table::new(&[
         "pipeline", "target", "format", "width", "height", "samples", "bytes",
     ]);
@@ -239,7 +307,7 @@ pub fn targets(c: &Comparison) -> String {
             ]);
         }
     }
-    table.text
+    table
 }
 
 #[cfg(test)]
@@ -260,6 +328,7 @@ mod tests {
             frames(&c),
             targets(&c),
         ] {
+            let text = text.text();
             let mut lines = text.split("\r\n");
             let columns = lines.next().unwrap().split(',').count();
             let rows: Vec<&str> = lines.filter(|l| !l.is_empty()).collect();
@@ -270,8 +339,26 @@ mod tests {
             );
         }
         assert_eq!(
-            frames(&c).lines().count(),
+            frames(&c).text().lines().count(),
             1 + c.pipelines.len() * c.frames as usize
+        );
+    }
+
+    #[test]
+    fn a_study_says_of_each_row_at_which_point_and_in_which_process() {
+        let study = sample::study(&[16, 64], |lights| [lights, 2.0 * lights]);
+        let text = of_study(&study, frames);
+        let mut lines = text.lines();
+        assert_eq!(
+            lines.next(),
+            Some("point,at_scene,at_lights,pipeline,process,frame,gpu_ms,cpu_ms,wall_ms")
+        );
+        // Two points, two pipelines, three processes, twenty frames.
+        assert_eq!(lines.clone().count(), 2 * 2 * 3 * 20);
+        let second = lines.nth(20).unwrap();
+        assert!(
+            second.starts_with("\"scene=atrium,lights=16\",atrium,16,deferred_shading,1,0,"),
+            "{second}"
         );
     }
 
@@ -279,6 +366,6 @@ mod tests {
     fn hostile_cells_are_quoted() {
         let mut table = Table::new(&["a", "b"]);
         table.row(["x,\"y\"\n".to_owned(), "<b>".to_owned()]);
-        assert_eq!(table.text, "a,b\r\n\"x,\"\"y\"\"\n\",<b>\r\n");
+        assert_eq!(table.text(), "a,b\r\n\"x,\"\"y\"\"\n\",<b>\r\n");
     }
 }

@@ -6,19 +6,21 @@
 
 pub mod analysis;
 pub mod csv;
+mod figures;
 pub mod format;
 pub mod html;
 mod images;
+pub mod lines;
 mod model;
 #[cfg(test)]
 pub(crate) mod sample;
-mod study_files;
 pub mod summary;
+mod tables;
+mod theory;
 mod write;
 
 pub use model::{
     AbilityResult, Adapter, Comparison, CounterResult, Input, Machine, Parameter, PassResult,
     PipelineResult, ProcessRecord, SCHEMA, Seed, SystemResult, TargetResult, ViewResult,
 };
-pub use study_files::{read_study, write_study};
-pub use write::{ReportFiles, read_json, to_json, write_report};
+pub use write::{ReportFiles, read_json, to_json, write_report, write_study};

@@ -4,6 +4,7 @@
 use super::model::*;
 use crate::LdrImage;
 use crate::diff::DiffOptions;
+use crate::study::{Axis, Plan, Point, Study};
 
 /// `count` times around a median with a long tail, the same at every call.
 pub fn series(median: f64, spread: f64, count: u32) -> Vec<f64> {
@@ -188,4 +189,60 @@ pub fn with(pipelines: Vec<PipelineResult>) -> Comparison {
     c.compare_pictures(|_| None, DiffOptions::default())
         .unwrap();
     c
+}
+
+/// A study of the two pipelines over lights, whose times at each value `times` gives.
+pub fn study(lights: &[u32], times: impl Fn(f64) -> [f64; 2]) -> Study {
+    let points = lights.iter().map(|count| {
+        let [deferred, forward] = times(f64::from(*count));
+        let mut c = comparison();
+        for (p, time) in c.pipelines.iter_mut().zip([deferred, forward]) {
+            let fresh = pipeline(&p.name, &p.title, time, picture(2, 2, 0.0, 0.0));
+            p.frame_gpu_ms = Some((0..3).flat_map(|_| series(time, time * 0.03, 20)).collect());
+            p.frame_cpu_ms = fresh.frame_cpu_ms;
+            p.passes = fresh.passes;
+            p.process_frames = vec![20; 3];
+            p.settled_after = vec![4; 3];
+        }
+        c.processes = (0..3)
+            .map(|index| ProcessRecord {
+                index,
+                started: "2026-11-22T10:30:00Z".into(),
+                seconds: 4.5,
+                load_average: Some(0.2),
+                processor_mhz: Some(2900.0),
+            })
+            .collect();
+        c.frames = 20;
+        let value = |name: &str, value: String| Parameter {
+            name: name.into(),
+            value,
+        };
+        Point {
+            key: format!("scene=atrium,lights={count}"),
+            coordinates: vec![
+                value("scene", "atrium".into()),
+                value("lights", count.to_string()),
+            ],
+            comparison: c,
+        }
+    });
+    Study {
+        schema: SCHEMA,
+        plan: Plan {
+            title: "Two ways to light an atrium".into(),
+            axes: vec![Axis {
+                name: "lights".into(),
+                values: lights.iter().map(u32::to_string).collect(),
+            }],
+            size: [160, 90],
+            reference: "deferred_shading".into(),
+            frames: 20,
+            processes: 3,
+            seconds: 60.0,
+            ..Plan::default()
+        },
+        points: points.collect(),
+        missing: vec![],
+    }
 }

@@ -4,8 +4,11 @@
 
 mod pictures;
 mod speed;
+mod study;
 
 pub use speed::clock_name;
+pub(crate) use study::label_of;
+pub use study::summarize_study;
 
 use super::analysis::{Analysis, Clock};
 use super::format::{bytes, significant};

@@ -3,11 +3,13 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use super::analysis::of_study;
 use super::images::{self, Encoded};
-use super::model::{Comparison, SCHEMA};
-use super::{csv, html};
+use super::model::{Comparison, Parameter, SCHEMA};
+use super::{csv, figures, html, tables};
 use crate::LabError;
 use crate::files::write_atomically;
+use crate::study::{Choice, Plan, Point, Study};
 
 /// The files of a written report.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,64 +18,145 @@ pub struct ReportFiles {
     pub html: PathBuf,
     /// `report.json`: everything but the pixels, for programs.
     pub json: PathBuf,
-    /// `pipelines.csv`, `systems.csv`, `passes.csv`, `frames.csv` and `targets.csv`.
+    /// `pipelines.csv`, `systems.csv`, `passes.csv`, `frames.csv`, `targets.csv` and `counters.csv`.
     pub csv: Vec<PathBuf>,
-    /// `pictures/*.png`: each pipeline's picture and heat map.
+    /// `tables/*.md` and `tables/*.tex`: the tables of the page for other texts.
+    pub tables: Vec<PathBuf>,
+    /// `charts/*.svg` and `charts/*.png`: the charts of the page.
+    pub charts: Vec<PathBuf>,
+    /// `pictures/*.png`: each pipeline's pictures, heat maps and views.
     pub pictures: Vec<PathBuf>,
 }
 
-/// Writes a report into a folder, which is made if it is missing. Each file is complete or not
-/// there. The names of the picture files are noted in `comparison`.
+/// Writes the report of one comparison, as the study of a single point.
 ///
 /// # Errors
-/// [`LabError::Write`] if a file can't be written, [`LabError::Encode`] if a picture can't be
-/// encoded.
+/// As [`write_study`].
 pub fn write_report(comparison: &mut Comparison, folder: &Path) -> Result<ReportFiles, LabError> {
-    let images = images::encode(comparison)?;
-    let pictures = write_pictures(comparison, &images, folder)?;
+    let mut study = of_one(std::mem::take(comparison));
+    let written = write_study(&mut study, folder);
+    if let Some(point) = study.points.pop() {
+        *comparison = point.comparison;
+    }
+    written
+}
+
+/// Writes the report of a study into a folder, which is made if it is missing. Each file is complete
+/// or not there. The names of the picture files are noted in `study`.
+///
+/// # Errors
+/// [`LabError::Write`] if a file can't be written, [`LabError::Encode`] if a picture or a chart can't
+/// be encoded.
+pub fn write_study(study: &mut Study, folder: &Path) -> Result<ReportFiles, LabError> {
+    let comparisons: Vec<&Comparison> = study.points.iter().map(|p| &p.comparison).collect();
+    let images = images::encode(&comparisons)?;
+    let pictures = write_pictures(study, &images, folder)?;
     let json = folder.join("report.json");
-    write_atomically(&json, to_json(comparison)?.as_bytes())?;
-    let tables = [
-        ("pipelines.csv", csv::pipelines(comparison)),
-        ("systems.csv", csv::systems(comparison)),
-        ("passes.csv", csv::passes(comparison)),
-        ("frames.csv", csv::frames(comparison)),
-        ("targets.csv", csv::targets(comparison)),
-    ];
-    let mut csv = Vec::new();
-    for (name, text) in tables {
+    write_atomically(&json, to_json(study)?.as_bytes())?;
+    let write = |name: String, content: &[u8]| {
         let path = folder.join(name);
-        write_atomically(&path, text.as_bytes())?;
-        csv.push(path);
+        write_atomically(&path, content).map(|()| path)
+    };
+    let csv = csv::TABLES
+        .iter()
+        .map(|(name, table)| write((*name).into(), csv::of_study(study, *table).as_bytes()))
+        .collect::<Result<_, _>>()?;
+    let analyses = of_study(study);
+    let mut tables = Vec::new();
+    for (name, table) in tables::all(study, &analyses) {
+        tables.push(write(
+            format!("tables/{name}.md"),
+            table.markdown().as_bytes(),
+        )?);
+        tables.push(write(
+            format!("tables/{name}.tex"),
+            table.latex().as_bytes(),
+        )?);
+    }
+    let mut charts = Vec::new();
+    for (name, svg) in figures::all(study, &analyses) {
+        charts.push(write(format!("charts/{name}.svg"), svg.as_bytes())?);
+        charts.push(write(format!("charts/{name}.png"), &figures::png(&svg)?)?);
     }
     let html = folder.join("report.html");
-    write_atomically(&html, html::page_with(comparison, &images).as_bytes())?;
+    let page = html::study_page(study, &analyses, &images);
+    write_atomically(&html, page.as_bytes())?;
     Ok(ReportFiles {
         html,
         json,
         csv,
+        tables,
+        charts,
         pictures,
     })
 }
 
+/// A study of one point that holds a comparison.
+pub(super) fn of_one(comparison: Comparison) -> Study {
+    let scene = Parameter {
+        name: "scene".into(),
+        value: comparison.scene.clone(),
+    };
+    let pipelines = comparison.pipelines.iter().map(|p| Choice {
+        path: p.name.clone(),
+        settings: p.parameters.clone(),
+        ..Choice::default()
+    });
+    Study {
+        schema: SCHEMA,
+        plan: Plan {
+            title: comparison.title.clone(),
+            scenes: vec![Choice {
+                path: comparison.scene.clone(),
+                settings: comparison.parameters.clone(),
+                ..Choice::default()
+            }],
+            pipelines: pipelines.collect(),
+            size: comparison.size,
+            reference: comparison.reference.clone(),
+            warmup: comparison.warmup_frames,
+            frames: comparison.frames,
+            processes: comparison.processes.len().max(1) as u32,
+            ..Plan::default()
+        },
+        points: vec![Point {
+            key: format!("scene={}", comparison.scene),
+            coordinates: vec![scene],
+            comparison,
+        }],
+        missing: Vec::new(),
+    }
+}
+
 fn write_pictures(
-    comparison: &mut Comparison,
-    images: &[Encoded],
+    study: &mut Study,
+    images: &[Vec<Encoded>],
     folder: &Path,
 ) -> Result<Vec<PathBuf>, LabError> {
     let mut written = Vec::new();
     let mut taken = HashSet::new();
-    for (pipeline, image) in comparison.pipelines.iter_mut().zip(images) {
-        let stem = unique_stem(&pipeline.name, &mut taken);
-        let mut write = |png: &Option<Vec<u8>>, name: String| -> Result<_, LabError> {
-            let Some(png) = png else { return Ok(None) };
-            let path = folder.join(&name);
-            write_atomically(&path, png)?;
-            written.push(path);
-            Ok(Some(name))
-        };
-        pipeline.picture_file = write(&image.picture, format!("pictures/{stem}.png"))?;
-        pipeline.heat_map_file = write(&image.heat_map, format!("pictures/{stem}-flip.png"))?;
+    let several = study.points.len() > 1;
+    for (number, (point, images)) in study.points.iter_mut().zip(images).enumerate() {
+        for (pipeline, image) in point.comparison.pipelines.iter_mut().zip(images) {
+            let name = match several {
+                true => format!("{}-{}", number + 1, pipeline.name),
+                false => pipeline.name.clone(),
+            };
+            let stem = unique_stem(&name, &mut taken);
+            let mut write = |png: &Option<Vec<u8>>, name: String| -> Result<_, LabError> {
+                let Some(png) = png else { return Ok(None) };
+                let path = folder.join(&name);
+                write_atomically(&path, png)?;
+                written.push(path);
+                Ok(Some(name))
+            };
+            pipeline.picture_file = write(&image.picture, format!("pictures/{stem}.png"))?;
+            pipeline.heat_map_file = write(&image.heat_map, format!("pictures/{stem}-flip.png"))?;
+            for (view, png) in pipeline.views.iter_mut().zip(&image.views) {
+                let stem = unique_stem(&format!("{stem}-{}", view.name), &mut taken);
+                view.file = write(png, format!("pictures/{stem}.png"))?;
+            }
+        }
     }
     Ok(written)
 }
@@ -103,22 +186,22 @@ fn unique_stem(name: &str, taken: &mut HashSet<String>) -> String {
     candidate
 }
 
-/// The comparison as JSON text.
+/// The study as JSON text.
 ///
 /// # Errors
 /// [`LabError::Encode`] if a value has no JSON form.
-pub fn to_json(comparison: &Comparison) -> Result<String, LabError> {
-    serde_json::to_string_pretty(comparison).map_err(|error| LabError::Encode {
+pub fn to_json(study: &Study) -> Result<String, LabError> {
+    serde_json::to_string_pretty(study).map_err(|error| LabError::Encode {
         format: "JSON",
         reason: error.to_string(),
     })
 }
 
-/// Reads a comparison that [`write_report`] wrote.
+/// Reads a study that [`write_study`] wrote.
 ///
 /// # Errors
-/// [`LabError::ReportData`] if the file can't be read, is no comparison, or has a newer schema.
-pub fn read_json(path: &Path) -> Result<Comparison, LabError> {
+/// [`LabError::ReportData`] if the file can't be read, is no study, or has another schema.
+pub fn read_json(path: &Path) -> Result<Study, LabError> {
     let fail = |reason: String| LabError::ReportData {
         path: path.to_path_buf(),
         reason,
@@ -152,16 +235,18 @@ mod tests {
         for path in [&files.html, &files.json]
             .into_iter()
             .chain(&files.csv)
+            .chain(&files.tables)
+            .chain(&files.charts)
             .chain(&files.pictures)
         {
             assert!(
-                std::fs::metadata(path).unwrap().len() > 50,
+                std::fs::metadata(path).unwrap().len() > 40,
                 "{}",
                 path.display()
             );
         }
         assert_eq!(files.pictures.len(), 3);
-        let mut read = read_json(&files.json).unwrap();
+        let mut read = read_json(&files.json).unwrap().points.remove(0).comparison;
         for (p, original) in read.pipelines.iter_mut().zip(&c.pipelines) {
             assert!(place.join(p.picture_file.as_ref().unwrap()).is_file());
             p.picture = original.picture.clone();
@@ -170,7 +255,7 @@ mod tests {
         assert_eq!(read, c);
         // A second report replaces the first and leaves no temporary files.
         write_report(&mut c, &place).unwrap();
-        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 8);
+        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 11);
     }
 
     #[test]
@@ -180,7 +265,7 @@ mod tests {
             ("", "EOF"),
             ("{}", "no schema"),
             ("{\"schema\": 99}", "schema 99"),
-            ("{\"schema\": 1}", "missing field"),
+            ("{\"schema\": 2}", "missing field"),
         ] {
             let path = folder.path().join("report.json");
             std::fs::write(&path, text).unwrap();

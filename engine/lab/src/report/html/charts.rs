@@ -140,6 +140,55 @@ fn chart(
     });
 }
 
+/// The style of a chart that stands alone, as the page has it in light.
+const ALONE: &str = "\
+text{fill:#1c1d20;font-size:13px;font-family:Ubuntu,Helvetica,Arial,sans-serif}\
+.tick{fill:#5b5e66;font-size:12px}\
+.inside{font-size:12.5px;paint-order:stroke;stroke:#ffffff;stroke-width:4.5px;stroke-linejoin:round}\
+.grid{stroke:#d9d7d0;stroke-width:1;fill:none}\
+.axis{stroke:#5b5e66;stroke-width:1;fill:none}\
+.dots{stroke:#0072b2;stroke-width:3.4;stroke-linecap:round;opacity:.5;fill:none}\
+.median{stroke:#1c1d20;stroke-width:1.8;fill:none}\
+.triangle{fill:#1c1d20}\
+.interval{fill:#c65102;opacity:.35}\
+.segment{stroke:#5b5e66;stroke-width:.8}\
+.look path{stroke-width:1.5;stroke-linecap:round;fill:none}\
+.look rect{fill-opacity:.3}\
+.c0 rect{fill:#0072b2}.c0 path{stroke:#0072b2}.c1 rect{fill:#c65102}.c1 path{stroke:#c65102}\
+.c2 rect{fill:#00805a}.c2 path{stroke:#00805a}.c3 rect{fill:#a0408c}.c3 path{stroke:#a0408c}\
+.c4 rect{fill:#8f6b00}.c4 path{stroke:#8f6b00}.c5 rect{fill:#2f8fbf}.c5 path{stroke:#2f8fbf}\
+.c6 rect{fill:#5a5d66}.c6 path{stroke:#5a5d66}.c7 rect{fill:#8b1e4b}.c7 path{stroke:#8b1e4b}";
+
+/// The first chart that is written as a file that stands alone, with the patterns of so many passes.
+pub fn alone(passes: usize, write: impl FnOnce(&mut Writer)) -> Option<String> {
+    let mut page = Writer::default();
+    write(&mut page);
+    let page = page.finish();
+    let start = page.find("<svg")?;
+    let end = start + page[start..].find("</svg>")?;
+    let (tag, content) = page[start..end].split_once('>')?;
+    let height: f64 = tag
+        .split_once("viewBox=\"")?
+        .1
+        .split(['"', ' '])
+        .nth(3)?
+        .parse()
+        .ok()?;
+    let mut head = Writer::default();
+    head.element("style", &[], |w| w.constant(ALONE));
+    head.element(
+        "rect",
+        &[("width", "100%"), ("height", "100%"), ("fill", "#ffffff")],
+        |_| {},
+    );
+    head.element("defs", &[], |w| patterns(w, passes));
+    let head = head.finish();
+    let size =
+        format!("xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\"");
+    let tag = tag.replacen("<svg", &format!("<svg {size}"), 1);
+    Some(format!("{tag}>{head}{content}</svg>\n"))
+}
+
 /// Every measured frame of every pipeline as a dot, with medians and their intervals.
 pub fn frames(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
     let largest = c
@@ -215,22 +264,16 @@ struct Segment<'a> {
 }
 
 /// Median pass times of every pipeline as stacked bars.
-pub fn passes(w: &mut Writer, c: &Comparison) {
+pub fn passes(w: &mut Writer, c: &Comparison, names: &[&str]) {
     let gpu = c
         .pipelines
         .iter()
         .flat_map(|p| &p.passes)
         .any(|pass| pass.gpu_ms.is_some());
-    let mut names: Vec<&str> = Vec::new();
-    for pass in c.pipelines.iter().flat_map(|p| &p.passes) {
-        if !names.contains(&pass.name.as_str()) {
-            names.push(&pass.name);
-        }
-    }
     let bars: Vec<Vec<Segment>> = c
         .pipelines
         .iter()
-        .map(|p| segments(p, gpu, &names))
+        .map(|p| segments(p, gpu, names))
         .collect();
     if bars.iter().all(Vec::is_empty) {
         return;
@@ -254,9 +297,6 @@ pub fn passes(w: &mut Writer, c: &Comparison) {
          whole frame. A pass keeps its pattern in all bars."
     );
     chart(w, bottom + 24.0, &title, &caption, |w| {
-        w.element("defs", &[], |w| {
-            (0..names.len().min(LOOKS)).for_each(|look| pattern(w, look))
-        });
         axis.draw(w, 0.0, bottom);
         for (i, (p, bar)) in c.pipelines.iter().zip(&bars).enumerate() {
             let top = STEP * i as f64 + LABEL;
@@ -277,7 +317,11 @@ pub fn passes(w: &mut Writer, c: &Comparison) {
             ("aria-label", "Patterns of the passes"),
         ],
         |w| {
-            for (i, name) in names.iter().enumerate() {
+            let here = |name: &&str| {
+                let mut passes = c.pipelines.iter().flat_map(|p| &p.passes);
+                passes.any(|pass| pass.name == *name)
+            };
+            for (i, name) in names.iter().enumerate().filter(|(_, name)| here(name)) {
                 w.element("li", &[], |w| {
                     w.element(
                         "svg",
@@ -291,6 +335,23 @@ pub fn passes(w: &mut Writer, c: &Comparison) {
             }
         },
     );
+}
+
+/// The names of all passes, each once, in the order in which they come up first.
+pub fn pass_names<'a>(comparisons: impl IntoIterator<Item = &'a Comparison>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    let pipelines = comparisons.into_iter().flat_map(|c| &c.pipelines);
+    for pass in pipelines.flat_map(|p| &p.passes) {
+        if !names.contains(&pass.name.as_str()) {
+            names.push(&pass.name);
+        }
+    }
+    names
+}
+
+/// The patterns of so many passes.
+pub fn patterns(w: &mut Writer, passes: usize) {
+    (0..passes.min(LOOKS)).for_each(|look| pattern(w, look));
 }
 
 fn segments<'a>(p: &'a PipelineResult, gpu: bool, names: &[&str]) -> Vec<Segment<'a>> {

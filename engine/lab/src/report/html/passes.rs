@@ -3,20 +3,27 @@
 use super::answer::bytes_a_pixel;
 use super::table::{numbers, table, words};
 use super::writer::Writer;
-use super::{charts, or_dash, software_note};
+use super::{At, charts, or_dash, software_note};
 use crate::report::analysis::Analysis;
 use crate::report::format::{bytes, count, significant};
 use crate::report::model::{Comparison, PassResult, PipelineResult};
 use crate::report::summary::clock_name;
+use crate::report::theory;
 use crate::statistics::Summary;
 
 /// Charts of frames and passes, then the table of each pipeline's passes.
-pub fn times_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
+pub fn times_section(w: &mut Writer, at: &At, names: &[&str]) {
+    let (c, analysis) = (at.comparison, at.analysis);
+    let (id, heading) = (at.id("times"), at.id("times-h"));
     w.element(
         "section",
-        &[("id", "times"), ("aria-labelledby", "times-h")],
+        &[("id", &id), ("aria-labelledby", &heading)],
         |w| {
-            w.leaf("h2", &[("id", "times-h")], "Where the time goes");
+            w.leaf(
+                "h2",
+                &[("id", &heading)],
+                &at.heading("Where the time goes"),
+            );
             if c.adapter.software {
                 let text = "All times in this section are those of a software driver.";
                 w.element("p", &[("class", "caution")], |w| {
@@ -27,7 +34,7 @@ pub fn times_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
             if !analysis.order.is_empty() {
                 charts::frames(w, c, analysis);
             }
-            charts::passes(w, c);
+            charts::passes(w, c, names);
             system_table(w, c);
             let text = format!(
                 "In the tables, times are over {} frames, and counts and bytes are those of one \
@@ -234,12 +241,15 @@ fn time_cells(samples: Option<&[f64]>) -> [String; 2] {
 }
 
 /// Target memory of each pipeline.
-pub fn memory_section(w: &mut Writer, c: &Comparison) {
+pub fn memory_section(w: &mut Writer, at: &At) {
+    let c = at.comparison;
     if c.pipelines.iter().all(|p| p.targets.is_empty()) {
         return;
     }
-    w.element("section", &[("id", "memory"), ("aria-labelledby", "memory-h")], |w| {
-        w.leaf("h2", &[("id", "memory-h")], "What the targets take");
+    let (id, heading) = (at.id("memory"), at.id("memory-h"));
+    w.element("section", &[("id", &id), ("aria-labelledby", &heading)], |w| {
+        w.leaf("h2", &[("id", &heading)], &at.heading("What the targets take"));
+        theory_table(w, c);
         let text = "Bytes follow from the declared formats, sizes and samples; a driver may pad or \
                     compress. Targets that are never alive at the same time may share memory, \
                     which the total counts once.";
@@ -292,6 +302,50 @@ pub fn memory_section(w: &mut Writer, c: &Comparison) {
                     passes and stores after them instead.";
         w.leaf("p", &[("class", "note")], text);
     });
+}
+
+/// The theory's bytes a pixel against those of the targets.
+fn theory_table(w: &mut Writer, c: &Comparison) {
+    let rows: Vec<Vec<String>> = c
+        .pipelines
+        .iter()
+        .filter(|p| !p.targets.is_empty())
+        .map(|p| {
+            let measured = theory::measured(p, c);
+            let Some(theory) = theory::of(&p.name) else {
+                let mut row = vec![p.label().to_owned(), significant(measured)];
+                row.extend(["–", "–", "no formula is known for this name", "–"].map(str::to_owned));
+                return row;
+            };
+            let least = theory.bytes_a_pixel();
+            vec![
+                p.label().to_owned(),
+                significant(measured),
+                significant(least),
+                format!("{:+.1}", measured - least),
+                format!("{} ({})", theory.formula(), theory.layouts()),
+                theory.source.to_owned(),
+            ]
+        })
+        .collect();
+    let columns = [
+        words("Pipeline"),
+        numbers("Targets, bytes a pixel"),
+        numbers("Theory, bytes a pixel"),
+        numbers("More"),
+        words("Formula"),
+        words("Source"),
+    ];
+    table(
+        w,
+        "Bytes a pixel of all targets against the technique's formula.",
+        &columns,
+        &rows,
+    );
+    let text = "The formula is the least that the technique needs at one sample a pixel, in the \
+                layout of its source. A pipeline has more where it keeps more: the picture after \
+                the tone curve, wider formats, more samples, or more kinds of surface.";
+    w.leaf("p", &[("class", "note")], text);
 }
 
 fn traffic(p: &PipelineResult, pixels: f64) -> Vec<String> {

@@ -1,32 +1,32 @@
 //! Each pipeline's picture, where it differs, and the metrics.
 
+use super::At;
 use super::table::{numbers, table, words};
 use super::writer::{Writer, data_uri};
 use crate::colormap::ColorMap;
 use crate::diff::{ldr_lines, linear_lines, number};
-use crate::report::images::Encoded;
+use crate::report::images::{Encoded, Form};
 use crate::report::model::{Comparison, PipelineResult};
 
-/// Viewer, pictures and metrics.
-pub fn section(w: &mut Writer, c: &Comparison, images: &[Encoded]) {
+/// Pictures and metrics of a point.
+pub fn section(w: &mut Writer, at: &At) {
+    let c = at.comparison;
     let compared = c.pipelines.iter().any(|p| p.difference.is_some());
     let heading = if compared {
         "Where the pictures differ"
     } else {
         "Pictures"
     };
+    let (id, heading_id) = (at.id("pictures"), at.id("pictures-h"));
     w.element(
         "section",
-        &[("id", "pictures"), ("aria-labelledby", "pictures-h")],
+        &[("id", &id), ("aria-labelledby", &heading_id)],
         |w| {
-            w.leaf("h2", &[("id", "pictures-h")], heading);
-            if images.iter().filter(|i| i.picture.is_some()).count() > 1 {
-                viewer(w);
+            w.leaf("h2", &[("id", &heading_id)], &at.heading(heading));
+            for (number, (pipeline, image)) in c.pipelines.iter().zip(at.images).enumerate() {
+                pair(w, at, pipeline, image, number);
             }
-            for (number, (pipeline, image)) in c.pipelines.iter().zip(images).enumerate() {
-                pair(w, c, pipeline, image, number);
-            }
-            if images.iter().any(|i| i.heat_map.is_some()) {
+            if at.images.iter().any(|i| i.heat_map.is_some()) {
                 legend(w, c.heat_map_scale);
             }
             metrics_table(w, c);
@@ -34,74 +34,13 @@ pub fn section(w: &mut Writer, c: &Comparison, images: &[Encoded]) {
     );
 }
 
-/// Controls that the script fills in and shows; without the script the pictures below suffice.
-fn viewer(w: &mut Writer) {
-    let attributes = [
-        ("class", "viewer"),
-        ("id", "viewer"),
-        ("hidden", ""),
-        ("aria-label", "Picture viewer"),
-    ];
-    w.element("div", &attributes, |w| {
-        w.element("div", &[("class", "controls")], |w| {
-            w.element("label", &[], |w| {
-                w.text("Left (A) ");
-                w.element("select", &[("id", "view-a")], |_| {});
-            });
-            w.element("label", &[], |w| {
-                w.text("Right (B) ");
-                w.element("select", &[("id", "view-b")], |_| {});
-            });
-            w.element("label", &[("class", "grow")], |w| {
-                w.text("Divider ");
-                w.void(
-                    "input",
-                    &[
-                        ("type", "range"),
-                        ("id", "view-x"),
-                        ("min", "0"),
-                        ("max", "100"),
-                        ("value", "50"),
-                    ],
-                );
-            });
-            let flip = [
-                ("type", "button"),
-                ("id", "view-flip"),
-                ("aria-pressed", "false"),
-            ];
-            w.leaf("button", &flip, "Flip A/B (F)");
-            w.leaf(
-                "button",
-                &[("type", "button"), ("id", "view-zoom")],
-                "Zoom to fit (Z)",
-            );
-        });
-        w.element(
-            "div",
-            &[("class", "stage"), ("id", "view-stage"), ("tabindex", "0")],
-            |w| {
-                w.element("div", &[("class", "layers"), ("id", "view-layers")], |_| {});
-            },
-        );
-        w.leaf(
-            "p",
-            &[
-                ("class", "status"),
-                ("id", "view-status"),
-                ("aria-live", "polite"),
-            ],
-            "",
-        );
-    });
-}
-
-/// A pipeline's picture and, beside it, its heat map.
-fn pair(w: &mut Writer, c: &Comparison, p: &PipelineResult, image: &Encoded, index: usize) {
+/// A pipeline's picture and, beside it, its heat map and views.
+fn pair(w: &mut Writer, at: &At, p: &PipelineResult, image: &Encoded, index: usize) {
+    let c = at.comparison;
     let is_reference = p.name == c.reference;
     let label = p.label();
+    let several = c.pipelines.len() > 1;
     w.element("article", &[("class", "pair")], |w| {
-        let several = c.pipelines.len() > 1;
         let role = if is_reference && several {
             " (reference)"
         } else {
@@ -112,65 +51,175 @@ fn pair(w: &mut Writer, c: &Comparison, p: &PipelineResult, image: &Encoded, ind
             w.leaf("p", &[("class", "about")], &p.description);
         }
         w.element("div", &[("class", "figures")], |w| {
-            match (&image.picture, &p.picture) {
-                (Some(png), Some(picture)) => shot(
+            match &p.picture {
+                Some(picture) => shot(
                     w,
                     &Shot {
-                        id: &format!("picture-{index}"),
+                        id: &at.id(&format!("picture-{index}")),
+                        kind: "picture",
                         label,
                         alt: &format!("Picture of {label}"),
                         caption: "Picture, 8-bit sRGB after the tone curve",
                         size: [picture.width, picture.height],
+                        file: p.picture_file.as_deref(),
+                        point: at.number,
+                        reference: is_reference,
                     },
-                    png,
+                    image.held.picture,
+                    match image.held.picture {
+                        Form::Delta => image.delta.as_deref(),
+                        _ => image.picture.as_deref(),
+                    },
                 ),
-                _ => w.leaf("p", &[("class", "aside")], "No picture was kept."),
+                None => w.leaf("p", &[("class", "aside")], "No picture was kept."),
             }
-            match (&image.heat_map, &p.heat_map) {
-                (Some(png), Some(map)) => shot(
+            match &p.heat_map {
+                Some(map) => shot(
                     w,
                     &Shot {
-                        id: &format!("difference-{index}"),
+                        id: &at.id(&format!("difference-{index}")),
+                        kind: "flip",
                         label: &format!("{label} – FLIP"),
                         alt: &format!("Heat map of the FLIP difference of {label}"),
                         caption: &difference_caption(p),
                         size: [map.width, map.height],
+                        file: p.heat_map_file.as_deref(),
+                        point: at.number,
+                        reference: false,
                     },
-                    png,
+                    if image.held.heat_map {
+                        Form::Whole
+                    } else {
+                        Form::Absent
+                    },
+                    image.heat_map.as_deref(),
                 ),
-                _ if !several => {}
-                _ if is_reference => {
+                None if !several => {}
+                None if is_reference => {
                     let text = "All other pictures are compared with this one.";
                     w.leaf("p", &[("class", "aside")], text);
                 }
-                _ => w.leaf("p", &[("class", "aside")], "This picture was not compared."),
+                None => w.leaf("p", &[("class", "aside")], "This picture was not compared."),
+            }
+            for (view_number, (view, png)) in p.views.iter().zip(&image.views).enumerate() {
+                let Some(picture) = &view.picture else {
+                    continue;
+                };
+                shot(
+                    w,
+                    &Shot {
+                        id: &at.id(&format!("view-{index}-{view_number}")),
+                        kind: "view",
+                        label: &format!("{label} – {}", view.name),
+                        alt: &format!("{} in {label}", view.name),
+                        caption: &format!("{}: {}", view.name, view.description),
+                        size: [picture.width, picture.height],
+                        file: view.file.as_deref(),
+                        point: at.number,
+                        reference: false,
+                    },
+                    if image.held.views {
+                        Form::Whole
+                    } else {
+                        Form::Absent
+                    },
+                    png.as_deref(),
+                );
             }
         });
+        linear(w, at, p, image, index);
     });
+}
+
+/// The picture in linear light for the viewer, or why it is not there.
+fn linear(w: &mut Writer, at: &At, p: &PipelineResult, image: &Encoded, index: usize) {
+    let Some(picture) = &p.linear else {
+        return;
+    };
+    let Some(png) = image.linear.as_ref().filter(|_| image.held.linear) else {
+        let text = "The picture in linear light is not in this page, which would be too large with \
+                    it; the viewer shows no exposure of it.";
+        w.leaf("p", &[("class", "note")], text);
+        return;
+    };
+    let [width, height] = [picture.width, picture.height * 2].map(|s| s.to_string());
+    let attributes = [
+        ("id", at.id(&format!("linear-{index}"))),
+        ("class", "linear".into()),
+        ("hidden", String::new()),
+        ("alt", String::new()),
+        ("data-of", at.id(&format!("picture-{index}"))),
+        ("src", data_uri(png)),
+        ("width", width),
+        ("height", height),
+    ];
+    let attributes: Vec<(&str, &str)> = attributes.iter().map(|(n, v)| (*n, v.as_str())).collect();
+    w.void("img", &attributes);
 }
 
 /// A picture of the page that the viewer can show too.
 struct Shot<'a> {
     id: &'a str,
+    kind: &'a str,
     label: &'a str,
     alt: &'a str,
     caption: &'a str,
     size: [u32; 2],
+    file: Option<&'a str>,
+    point: usize,
+    reference: bool,
 }
 
-fn shot(w: &mut Writer, shot: &Shot, png: &[u8]) {
+fn shot(w: &mut Writer, shot: &Shot, form: Form, png: Option<&[u8]>) {
     let [width, height] = shot.size.map(|s| s.to_string());
+    let point = shot.point.to_string();
+    let file = shot.file.unwrap_or_default();
     w.element("figure", &[], |w| {
-        let attributes = [
+        let uri = png.filter(|_| form != Form::Absent).map(data_uri);
+        let mut attributes = vec![
             ("id", shot.id),
-            ("class", "shot"),
             ("data-label", shot.label),
-            ("src", &data_uri(png)),
-            ("alt", shot.alt),
+            ("data-kind", shot.kind),
+            ("data-point", &point),
             ("width", &width),
             ("height", &height),
         ];
-        w.void("img", &attributes);
+        if shot.reference {
+            attributes.push(("data-reference", "true"));
+        }
+        match (form, &uri) {
+            (Form::Whole, Some(uri)) => {
+                attributes.extend([("class", "shot"), ("src", uri), ("alt", shot.alt)]);
+                w.void("img", &attributes);
+            }
+            (Form::Delta, Some(uri)) => {
+                // A canvas that the script fills: the reference's picture plus this difference.
+                attributes.extend([
+                    ("class", "shot"),
+                    ("data-delta", uri),
+                    ("role", "img"),
+                    ("aria-label", shot.alt),
+                ]);
+                w.element("canvas", &attributes, |_| {});
+                w.element("noscript", &[], |w| {
+                    w.element("p", &[("class", "note")], |w| {
+                        w.text(
+                            "This picture is held as its difference to the reference, which the \
+                                script adds. As a file: ",
+                        );
+                        w.leaf("a", &[("href", file)], file);
+                    });
+                });
+            }
+            _ => {
+                w.element("p", &[("class", "aside")], |w| {
+                    w.text(
+                        "This page would be too large with this picture. It is beside the page: ",
+                    );
+                    w.leaf("a", &[("href", file)], file);
+                });
+            }
+        }
         w.leaf("figcaption", &[], shot.caption);
     });
 }
@@ -188,6 +237,22 @@ fn difference_caption(p: &PipelineResult) -> String {
     }
 }
 
+/// The colours of all heat maps.
+pub fn gradient(w: &mut Writer) {
+    w.element("linearGradient", &[("id", "magma")], |w| {
+        for i in 0..=16 {
+            let at = i as f32 / 16.0;
+            let [r, g, b] = ColorMap::Magma.color(at);
+            let colour = format!("rgb({r},{g},{b})");
+            w.element(
+                "stop",
+                &[("offset", &at.to_string()), ("stop-color", &colour)],
+                |_| {},
+            );
+        }
+    });
+}
+
 /// The colours of the heat maps with their values.
 fn legend(w: &mut Writer, scale: f32) {
     let label =
@@ -199,20 +264,6 @@ fn legend(w: &mut Writer, scale: f32) {
         ("aria-label", &label),
     ];
     w.element("svg", &svg, |w| {
-        w.element("defs", &[], |w| {
-            w.element("linearGradient", &[("id", "magma")], |w| {
-                for i in 0..=16 {
-                    let at = i as f32 / 16.0;
-                    let [r, g, b] = ColorMap::Magma.color(at);
-                    let colour = format!("rgb({r},{g},{b})");
-                    w.element(
-                        "stop",
-                        &[("offset", &at.to_string()), ("stop-color", &colour)],
-                        |_| {},
-                    );
-                }
-            });
-        });
         w.element(
             "rect",
             &[

@@ -1,15 +1,17 @@
 //! How to run it again, on what it ran, and how to read the numbers.
 
-use super::table::{facts, table, words};
+use super::table::{facts, numbers, table, words};
 use super::writer::Writer;
+use super::{At, or_dash};
 use crate::metrics::Metric;
 use crate::report::analysis::{Analysis, MARGIN};
-use crate::report::format::bytes;
+use crate::report::format::{bytes, significant};
 use crate::report::model::Comparison;
 use crate::statistics::CONFIDENCE;
+use crate::study::Study;
 
 /// Command, versions, machine, settings and inputs.
-pub fn run_again_section(w: &mut Writer, c: &Comparison) {
+pub fn run_again_section(w: &mut Writer, study: &Study, c: &Comparison) {
     w.element("section", &[("id", "again"), ("aria-labelledby", "again-h")], |w| {
         w.leaf("h2", &[("id", "again-h")], "How to run it again");
         let version = &c.program_version;
@@ -43,6 +45,9 @@ pub fn run_again_section(w: &mut Writer, c: &Comparison) {
             ("Reference", c.reference.clone()),
         ];
         settings.extend(c.parameters.iter().map(|p| (p.name.as_str(), p.value.clone())));
+        for axis in &study.plan.axes {
+            settings.push((&axis.name, format!("varied: {}", axis.values.join(", "))));
+        }
         let seeds: Vec<String> = c.seeds.iter().map(|s| format!("{} {}", s.name, s.value)).collect();
         if !seeds.is_empty() {
             settings.push(("Seeds", seeds.join(", ")));
@@ -51,6 +56,7 @@ pub fn run_again_section(w: &mut Writer, c: &Comparison) {
             settings.push(("Needs", format!("{}: {}", p.label(), p.features_needed.join(", "))));
         }
         facts(w, &settings);
+        processes(w, study);
         if !c.inputs.is_empty() {
             let columns = [words("File"), words("Hash"), words("Value")];
             let rows: Vec<Vec<String>> = c
@@ -63,8 +69,43 @@ pub fn run_again_section(w: &mut Writer, c: &Comparison) {
     });
 }
 
+/// The processes that measured, point by point.
+fn processes(w: &mut Writer, study: &Study) {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for point in &study.points {
+        for process in &point.comparison.processes {
+            rows.push(vec![
+                point.key.clone(),
+                (process.index + 1).to_string(),
+                process.started.clone(),
+                significant(process.seconds),
+                or_dash(process.load_average.map(|load| format!("{load:.2}"))),
+                or_dash(process.processor_mhz.map(|mhz| format!("{mhz:.0}"))),
+            ]);
+        }
+    }
+    if rows.is_empty() {
+        return;
+    }
+    let columns = [
+        words("Point"),
+        numbers("Process"),
+        words("Began"),
+        numbers("Seconds"),
+        numbers("Load before"),
+        numbers("Processor, MHz"),
+    ];
+    table(
+        w,
+        "Processes that measured, each started afresh.",
+        &columns,
+        &rows,
+    );
+}
+
 /// What the words and numbers mean exactly.
-pub fn reading_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
+pub fn reading_section(w: &mut Writer, points: &[At], analysis: &Analysis) {
+    let pipelines = || points.iter().flat_map(|at| &at.comparison.pipelines);
     w.element("section", &[("id", "reading"), ("aria-labelledby", "reading-h")], |w| {
         w.leaf("h2", &[("id", "reading-h")], "How to read this");
         let level = format!("{:.2}", 100.0 * analysis.ratio_level);
@@ -101,10 +142,10 @@ pub fn reading_section(w: &mut Writer, c: &Comparison, analysis: &Analysis) {
         ] {
             w.leaf("p", &[], &text);
         }
-        if c.pipelines.iter().any(|p| p.difference.is_some()) {
+        if pipelines().any(|p| p.difference.is_some()) {
             w.leaf("h3", &[], "Picture metrics");
             w.leaf("p", &[("class", "note")], "r is a value of the reference, t of the other picture; alpha is not compared.");
-            let linear = c.pipelines.iter().any(|p| p.linear_difference.is_some());
+            let linear = pipelines().any(|p| p.linear_difference.is_some());
             let definitions: Vec<(&str, String)> = Metric::ALL
                 .into_iter()
                 .filter(|m| is_printed(*m, linear))

@@ -1,6 +1,6 @@
 "use strict";
-// The page is complete without this script. It adds the viewer that lays two pictures over each
-// other, and a button that copies the command.
+// The page reads without this script. It copies the command, sorts tables and shows one point of a
+// study at a time.
 (() => {
   const id = (name) => document.getElementById(name);
 
@@ -18,78 +18,65 @@
     });
   }
 
-  const viewer = id("viewer");
-  const shots = [...document.querySelectorAll("img.shot")];
-  if (!viewer || shots.length < 2) return;
-  viewer.hidden = false;
-  const [left, right, slider] = ["view-a", "view-b", "view-x"].map(id);
-  const [flip, zoom, stage, layers] = ["view-flip", "view-zoom", "view-stage", "view-layers"].map(id);
-  const status = id("view-status");
-  for (const select of [left, right]) {
-    shots.forEach((shot, i) => select.add(new Option(shot.dataset.label, i)));
-  }
-  const pictures = shots.map((shot, i) => (shot.id.startsWith("picture-") ? i : -1)).filter((i) => i >= 0);
-  right.value = pictures[1] ?? 1;
-  left.value = pictures[0] ?? 0;
-  const [below, above] = [new Image(), new Image()];
-  const divider = document.createElement("div");
-  divider.className = "divider";
-  layers.append(below, above, divider);
+  // The number that a cell begins with, or that follows a sign of difference; units of bytes count.
+  const UNITS = { B: 1, KiB: 1024, MiB: 1024 ** 2, GiB: 1024 ** 3, TiB: 1024 ** 4 };
+  const value = (text) => {
+    const found = text.replace(/\u202f/g, "").match(/^[^\d+−-]*([+−-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)\s*([KMGT]?i?B)?/);
+    return found ? Number(found[1].replace("−", "-")) * (UNITS[found[2]] ?? 1) : NaN;
+  };
+  const compare = (numeric) => (a, b) => {
+    if (!numeric) return a.localeCompare(b, undefined, { numeric: true });
+    const [x, y] = [value(a), value(b)];
+    return x - y;
+  };
+  // Each heading becomes a button that sorts by its column: up, then down, then as it was.
+  const sortable = (table) => {
+    const body = table.tBodies[0];
+    const original = [...body.rows];
+    if (original.length < 2) return;
+    const headings = [...table.tHead.rows[0].cells];
+    headings.forEach((heading, column) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.className = "sort";
+      button.textContent = heading.textContent;
+      heading.replaceChildren(button);
+      heading.setAttribute("aria-sort", "none");
+      button.addEventListener("click", () => {
+        const was = heading.getAttribute("aria-sort");
+        const now = { none: "ascending", ascending: "descending", descending: "none" }[was];
+        for (const other of headings) other.setAttribute("aria-sort", "none");
+        heading.setAttribute("aria-sort", now);
+        const order = compare(heading.classList.contains("n"));
+        const text = (row) => row.cells[column]?.textContent ?? "";
+        const missing = (row) => heading.classList.contains("n") && Number.isNaN(value(text(row)));
+        // Rows without a number stay below, whichever way the column is sorted.
+        const rows = now === "none" ? original : [...original].sort((a, b) =>
+          missing(a) - missing(b) || (missing(a) ? 0 : order(text(a), text(b)) * (now === "ascending" ? 1 : -1)));
+        body.append(...rows);
+      });
+    });
+  };
+  document.querySelectorAll("figure.data table").forEach(sortable);
 
-  // Below lies B, above it A, cut at the divider. Flipped, one picture covers all.
-  let flipped = 0;
-  const draw = () => {
-    const [a, b] = [shots[left.value], shots[right.value]];
-    if (below.src !== b.src) below.src = b.src;
-    if (above.src !== a.src) above.src = a.src;
-    above.alt = `A: ${a.dataset.label}`;
-    below.alt = `B: ${b.dataset.label}`;
-    const shown = flipped ? (flipped === 1 ? 100 : 0) : Number(slider.value);
-    above.style.clipPath = `inset(0 ${100 - shown}% 0 0)`;
-    divider.style.left = `${shown}%`;
-    divider.hidden = flipped > 0;
-    flip.setAttribute("aria-pressed", String(flipped > 0));
-    slider.disabled = flipped > 0;
-    status.textContent = flipped
-      ? `Shown: ${(flipped === 1 ? a : b).dataset.label}. Flip again for the other; click the picture or press S for the divider.`
-      : `Left of the divider: ${a.dataset.label}. Right of it: ${b.dataset.label}.`;
-  };
-  const toggle = () => { flipped = flipped === 1 ? 2 : 1; draw(); };
-  const split = () => { flipped = 0; draw(); };
-  // Fit to the page, then one and four screen pixels a pixel of the picture.
-  const scales = [0, 1, 4];
-  let scale = 0;
-  const magnify = () => {
-    scale = (scale + 1) % scales.length;
-    layers.classList.toggle("exact", scale > 0);
-    layers.style.width = scale > 0 ? `${above.naturalWidth * scales[scale]}px` : "";
-    zoom.textContent = scale > 0 ? `Zoom ${scales[scale]}:1 (Z)` : "Zoom to fit (Z)";
-  };
-  for (const control of [left, right, slider]) control.addEventListener("input", draw);
-  flip.addEventListener("click", toggle);
-  zoom.addEventListener("click", magnify);
-  const follow = (event) => {
-    if (!event.isPrimary) return;
-    const box = layers.getBoundingClientRect();
-    slider.value = (100 * (event.clientX - box.left)) / box.width;
-    split();
-  };
-  stage.addEventListener("pointermove", (event) => {
-    if (!flipped) follow(event);
-  });
-  stage.addEventListener("pointerdown", follow);
-  // Letters act only while the viewer has the focus.
-  viewer.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
-    const key = event.key.toLowerCase();
-    if (key === "f") toggle();
-    else if (key === "s") split();
-    else if (key === "z") magnify();
-    else if (event.target === stage && (key === "arrowleft" || key === "arrowright")) {
-      slider.value = Number(slider.value) + (key === "arrowleft" ? -1 : 1);
-      split();
-      event.preventDefault();
-    }
-  });
-  draw();
+  const point = id("point");
+  if (point) {
+    id("chooser").hidden = false;
+    const show = () => {
+      document.querySelectorAll(".at").forEach((part) => {
+        part.classList.toggle("away", point.value !== "" && part.id !== `at-${point.value}`);
+      });
+      document.dispatchEvent(new CustomEvent("point", { detail: point.value }));
+    };
+    point.addEventListener("change", show);
+    show();
+    // The contents lead to the point that is shown.
+    document.querySelectorAll("nav a").forEach((link) => {
+      const name = link.getAttribute("href").replace(/^#|-\d+$/g, "");
+      link.addEventListener("click", () => {
+        const number = point.value || "1";
+        if (id(`${name}-${number}`)) link.setAttribute("href", `#${name}-${number}`);
+      });
+    });
+  }
 })();

@@ -69,6 +69,7 @@ fn head(w: &mut Writer, columns: &[Column]) {
     w.element("tr", &[], |w| {
         for column in columns {
             let attributes = [("scope", "col"), ("class", class(Some(column)))];
+            // The script makes buttons of the headings that sort the table.
             w.leaf("th", &attributes, &column.heading);
         }
     });

@@ -50,6 +50,11 @@ impl Writer {
         self.out.push_str(markup);
     }
 
+    /// A drawing that another writer finished, and which is escaped already.
+    pub(crate) fn drawing(&mut self, svg: &str) {
+        self.out.push_str(svg);
+    }
+
     /// The document so far.
     pub fn finish(self) -> String {
         self.out
