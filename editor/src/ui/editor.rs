@@ -12,10 +12,13 @@ use super::kept::Kept;
 use super::layout::{self, Panel};
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
+use super::panels::marks::Marks;
 use super::panels::plots::PlotsPanel;
+use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::screen::Screen;
 use super::workbench::Workbench;
+use super::workbench::sight::Sight;
 
 /// The state of the window's contents. [`Editor::ui`] draws it; who calls that owns the window.
 pub struct Editor {
@@ -28,6 +31,9 @@ pub struct Editor {
     pub(super) entities: EntitiesPanel,
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
+    pub(super) viewport: ViewportPanel,
+    /// What is drawn over the picture.
+    pub(super) marks: Marks,
     /// What is kept over restarts.
     pub kept: Kept,
     /// A panel to show before those that share its place, once all are drawn.
@@ -55,6 +61,8 @@ impl Editor {
             entities: EntitiesPanel::default(),
             console: ConsolePanel::default(),
             plots: PlotsPanel::default(),
+            viewport: ViewportPanel::default(),
+            marks: Marks::default(),
             kept,
             bring: None,
             hint: true,
@@ -99,12 +107,19 @@ impl Editor {
                 self.layout = tree;
             }
         });
-        // A panel that somebody has hidden stays so.
-        let brought = self.bring.take();
+        // A panel that somebody has hidden stays so, and who works with entities goes on with them.
+        let brought = self.bring.take().filter(|panel| {
+            *panel != Panel::Pixel || !layout::is_in_front(&self.layout, Panel::Entities)
+        });
         if let Some(panel) = brought.filter(|panel| layout::is_visible(&self.layout, *panel)) {
             layout::set_visible(&mut self.layout, panel, true);
         }
         panels::help::show(self, &ctx);
+
+        let busy = ctx.input(|input| input.pointer.any_down());
+        if !busy && !ctx.egui_wants_keyboard_input() {
+            self.workbench.undo.seal();
+        }
 
         if let Some(due) = self.workbench.next_due(now) {
             ctx.request_repaint_after(due);
@@ -120,7 +135,16 @@ impl Editor {
             Action::Stop => workbench.stop(),
             Action::Rewind => workbench.rewind(),
             Action::Frame => workbench.frame_scene(),
-            Action::ResetCamera => workbench.camera.reset(),
+            Action::FrameSelection => workbench.frame_selection(),
+            Action::ResetCamera => workbench.reset_camera(),
+            Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
+            Action::Perspective => workbench.look_through(Sight::Perspective),
+            Action::Mark(mark) => self.marks.toggle(mark),
+            Action::Undo => _ = workbench.undo(),
+            Action::Redo => _ = workbench.redo(),
+            Action::Tool(tool) => self.viewport.handles.tool = tool,
+            Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
+            Action::SelectNone => workbench.selection.clear(),
             Action::NextPipeline => self.select_beside(1),
             Action::PreviousPipeline => self.select_beside(-1),
             Action::Reload => workbench.reload(),
@@ -183,6 +207,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Console => panels::console::show(self.editor, ui),
             Panel::Actions => panels::actions::show(self.editor, ui),
             Panel::Plots => panels::plots::show(self.editor, ui),
+            Panel::History => panels::history::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

@@ -22,6 +22,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                     for entry in *group {
                         let mark = match entry.action {
                             Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
+                            Action::Tool(tool) => editor.viewport.handles.tool == tool,
+                            Action::LocalAxes => editor.viewport.handles.local,
+                            Action::Mark(mark) => editor.marks.has(mark),
                             _ => false,
                         };
                         let mut button = Button::new(entry.title).selected(mark);

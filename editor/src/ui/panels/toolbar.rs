@@ -6,6 +6,8 @@ use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
+use crate::ui::workbench::flat::Side;
+use crate::ui::workbench::sight::Sight;
 
 /// Draws the toolbar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -106,8 +108,9 @@ fn time(editor: &mut Editor, ui: &mut Ui) {
 
 fn camera(editor: &mut Editor, ui: &mut Ui) {
     button(editor, ui, "Frame", Action::Frame);
-    let moved = editor.workbench.camera.is_moved();
-    ui.add_enabled_ui(moved, |ui| {
+    sight(editor, ui);
+    let away = editor.workbench.is_camera_away();
+    ui.add_enabled_ui(away, |ui| {
         button(editor, ui, "Reset camera", Action::ResetCamera);
     });
     ui.separator();
@@ -119,6 +122,36 @@ fn camera(editor: &mut Editor, ui: &mut Ui) {
         .suffix(" m/s");
     ui.add(field.max_decimals(2)).labelled_by(label.id);
     editor.workbench.camera.speed = speed;
+}
+
+/// What the viewport looks through.
+fn sight(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let now = workbench.sight();
+    let title = |sight: &Sight| match sight {
+        Sight::Perspective => "Perspective".to_owned(),
+        Sight::Camera(name) => name.clone(),
+        Sight::Side(side) => side.title().to_owned(),
+    };
+    let cameras = workbench.cameras().into_iter().map(Sight::Camera);
+    let all: Vec<Sight> = [Sight::Perspective]
+        .into_iter()
+        .chain(Side::ALL.map(Sight::Side))
+        .chain(cameras)
+        .collect();
+    let mut wanted = None;
+    widgets::combo(ui, "View", &title(&now), 90.0, |ui| {
+        for (index, sight) in all.iter().enumerate() {
+            ui.push_id(index, |ui| {
+                if ui.selectable_label(*sight == now, title(sight)).clicked() {
+                    wanted = Some(sight.clone());
+                }
+            });
+        }
+    });
+    if let Some(sight) = wanted {
+        workbench.look_through(sight);
+    }
 }
 
 fn button(editor: &mut Editor, ui: &mut Ui, label: &str, action: Action) {
