@@ -29,6 +29,8 @@ pub enum Action {
     Perspective,
     /// Show something over the picture, or hide it.
     Mark(Mark),
+    /// Find an action, a scene or a pipeline by its name.
+    Palette,
     /// Take back the last change by hand.
     Undo,
     /// Do again what was taken back.
@@ -102,7 +104,10 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
     (
         "File",
         &[
-            &[entry(Action::Reload, "Reload everything", key(Key::F5))],
+            &[
+                entry(Action::Palette, "Find an action", command(Key::P)),
+                entry(Action::Reload, "Reload everything", key(Key::F5)),
+            ],
             &[entry(Action::Quit, "Quit", command(Key::Q))],
         ],
     ),

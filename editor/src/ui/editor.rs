@@ -1,5 +1,6 @@
 //! The editor: a workbench and the widgets around it.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -13,6 +14,7 @@ use super::layout::{self, Panel};
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
 use super::panels::marks::Marks;
+use super::panels::palette::Palette;
 use super::panels::plots::PlotsPanel;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
@@ -32,6 +34,8 @@ pub struct Editor {
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
     pub(super) viewport: ViewportPanel,
+    /// The palette, while it is open.
+    pub(super) palette: Option<Palette>,
     /// What is drawn over the picture.
     pub(super) marks: Marks,
     /// What is kept over restarts.
@@ -42,6 +46,10 @@ pub struct Editor {
     pub(super) help: bool,
     pub(super) about: bool,
     quit: bool,
+    /// The file that was brought last.
+    opened: Option<PathBuf>,
+    /// The swap of scenes that is kept among those of late.
+    remembered: u64,
 }
 
 impl Editor {
@@ -62,6 +70,7 @@ impl Editor {
             console: ConsolePanel::default(),
             plots: PlotsPanel::default(),
             viewport: ViewportPanel::default(),
+            palette: None,
             marks: Marks::default(),
             kept,
             bring: None,
@@ -69,6 +78,8 @@ impl Editor {
             help: false,
             about: false,
             quit: false,
+            opened: None,
+            remembered: 0,
         }
     }
 
@@ -115,6 +126,9 @@ impl Editor {
             layout::set_visible(&mut self.layout, panel, true);
         }
         panels::help::show(self, &ctx);
+        panels::palette::show(self, &ctx);
+        self.take_dropped_files(&ctx);
+        self.remember_scene();
 
         let busy = ctx.input(|input| input.pointer.any_down());
         if !busy && !ctx.egui_wants_keyboard_input() {
@@ -140,6 +154,7 @@ impl Editor {
             Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
             Action::Perspective => workbench.look_through(Sight::Perspective),
             Action::Mark(mark) => self.marks.toggle(mark),
+            Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
             Action::Redo => _ = workbench.redo(),
             Action::Tool(tool) => self.viewport.handles.tool = tool,
@@ -165,6 +180,53 @@ impl Editor {
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
             Action::Quit => self.quit = true,
+        }
+    }
+
+    /// Opens a scene by its name, or a file by its path.
+    pub(super) fn open_scene(&mut self, name: &str) {
+        let path = Path::new(name);
+        if path.is_absolute() {
+            self.open_file(path);
+        } else {
+            self.workbench.select_scene(name);
+        }
+    }
+
+    /// Opens a file that somebody brought.
+    pub(super) fn open_file(&mut self, file: &Path) {
+        match self.workbench.open_file(file) {
+            Ok(()) => self.opened = std::path::absolute(file).ok(),
+            Err(why) => {
+                self.workbench.log.error(why);
+                layout::set_visible(&mut self.layout, Panel::Log, true);
+            }
+        }
+    }
+
+    /// Opens the files that were dropped onto the window.
+    fn take_dropped_files(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        for file in dropped.iter().map(|file| file.path()) {
+            self.open_file(file);
+        }
+    }
+
+    /// Keeps the scene on screen among those of late.
+    fn remember_scene(&mut self) {
+        let scenes = &self.workbench.scenes;
+        let Some(name) = scenes.shown().filter(|_| scenes.swaps() != self.remembered) else {
+            return;
+        };
+        self.remembered = scenes.swaps();
+        // A file of another folder has no name that holds over restarts, but a path.
+        let path = self.opened.as_deref().and_then(Path::to_str);
+        let is_outside = name.starts_with('@');
+        let known = if is_outside { path } else { Some(name) };
+        if let Some(known) = known.map(str::to_owned)
+            && let Err(error) = self.kept.remember_scene(&known)
+        {
+            self.workbench.log.warn(error);
         }
     }
 

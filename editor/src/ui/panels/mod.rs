@@ -10,6 +10,7 @@ pub mod history;
 pub mod log;
 pub mod marks;
 pub mod menu;
+pub mod palette;
 pub mod parameters;
 pub mod passes;
 pub mod pixel;

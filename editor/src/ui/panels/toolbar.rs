@@ -5,6 +5,7 @@ use egui::{Button, DragValue, RichText, Ui};
 use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
+use crate::ui::panels::handles::Tool;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::flat::Side;
 use crate::ui::workbench::sight::Sight;
@@ -21,6 +22,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         time(editor, ui);
         ui.separator();
         camera(editor, ui);
+        ui.separator();
+        handles(editor, ui);
     });
     ui.add_space(1.0);
 }
@@ -122,6 +125,38 @@ fn camera(editor: &mut Editor, ui: &mut Ui) {
         .suffix(" m/s");
     ui.add(field.max_decimals(2)).labelled_by(label.id);
     editor.workbench.camera.speed = speed;
+}
+
+/// What the handles of the selection do.
+fn handles(editor: &mut Editor, ui: &mut Ui) {
+    for tool in Tool::ALL {
+        let chosen = editor.viewport.handles.tool == tool;
+        let mut response = ui.selectable_label(chosen, tool.title());
+        if let Some(key) = shortcut_text(ui.ctx(), Action::Tool(tool)) {
+            response = response.on_hover_text(key);
+        }
+        if response.clicked() {
+            editor.viewport.handles.tool = tool;
+        }
+    }
+    let handles = &mut editor.viewport.handles;
+    let about = "Handles along the axes of the entity that was chosen last";
+    ui.checkbox(&mut handles.local, "Local")
+        .on_hover_text(about);
+    let label = ui.label("Snap");
+    let (step, range, suffix) = match handles.tool {
+        Tool::Move => (&mut handles.snap.distance, 0.001..=1000.0, " m"),
+        Tool::Turn => (&mut handles.snap.angle, 0.1..=180.0, "°"),
+        Tool::Scale => (&mut handles.snap.scale, 0.01..=10.0, " x"),
+    };
+    let field = DragValue::new(step)
+        .range(range)
+        .speed(0.01)
+        .max_decimals(3)
+        .suffix(suffix);
+    ui.add(field)
+        .labelled_by(label.id)
+        .on_hover_text("The steps in which handles go while Ctrl is held");
 }
 
 /// What the viewport looks through.
