@@ -358,3 +358,43 @@ fn the_history_goes_to_any_step_over_fields_parameters_and_resets() {
     assert_eq!(bench.harness.state().workbench.undo.undone().len(), 0);
     assert_eq!(steps(&bench).len(), 4);
 }
+
+#[test]
+fn what_is_typed_into_a_field_is_one_step_and_escape_leaves_the_field_alone() {
+    let mut bench = open();
+    choose(&mut bench, &["lamp"]);
+    bench.show(Panel::Entities);
+    let field = |bench: &mut Bench| {
+        bench
+            .harness
+            .get_by_role_and_label(Role::SpinButton, "Intensity")
+            .scroll_to_me();
+        bench.harness.run_steps(3);
+        bench
+            .harness
+            .get_by_role_and_label(Role::SpinButton, "Intensity")
+            .click();
+        bench.harness.run_steps(2);
+    };
+    let intensity = |bench: &Bench| {
+        let scene = bench.harness.state().workbench.scenes.scene().unwrap();
+        let lamp = scene.world.find("lamp").unwrap();
+        scene.world.get::<Light>(lamp).unwrap().intensity
+    };
+    field(&mut bench);
+    key(&mut bench, Key::A, Modifiers::COMMAND);
+    for text in ["4", "7"] {
+        bench.harness.event(Event::Text(text.to_owned()));
+        bench.harness.step();
+    }
+    key(&mut bench, Key::Enter, Modifiers::NONE);
+    assert_eq!(intensity(&bench), 47.0);
+    assert_eq!(steps(&bench), ["light.intensity of lamp"]);
+    field(&mut bench);
+    key(&mut bench, Key::Escape, Modifiers::NONE);
+    assert_eq!(bench.harness.state().workbench.selection.len(), 1);
+    key(&mut bench, Key::Z, Modifiers::COMMAND);
+    assert_eq!(intensity(&bench), 60.0);
+    key(&mut bench, Key::Escape, Modifiers::NONE);
+    assert_eq!(bench.harness.state().workbench.selection.len(), 0);
+}

@@ -273,8 +273,11 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         // Keys are for its amount.
         return;
     }
-    // Escape closes a menu first.
-    let menu_is_open = egui::Popup::is_any_open(ctx);
+    if editor.palette.is_some() {
+        return;
+    }
+    // Escape closes a menu or leaves a field first.
+    let menu_is_open = egui::Popup::is_any_open(ctx) || editor.was_typing;
     for entry in entries() {
         if entry.action == Action::SelectNone && menu_is_open {
             continue;

@@ -46,6 +46,8 @@ pub struct Editor {
     pub(super) help: bool,
     pub(super) about: bool,
     quit: bool,
+    /// Whether a widget had the keys in the last frame.
+    pub(super) was_typing: bool,
     /// The file that was brought last.
     opened: Option<PathBuf>,
     /// The swap of scenes that is kept among those of late.
@@ -78,6 +80,7 @@ impl Editor {
             help: false,
             about: false,
             quit: false,
+            was_typing: false,
             opened: None,
             remembered: 0,
         }
@@ -131,7 +134,8 @@ impl Editor {
         self.remember_scene();
 
         let busy = ctx.input(|input| input.pointer.any_down());
-        if !busy && !ctx.egui_wants_keyboard_input() {
+        self.was_typing = ctx.egui_wants_keyboard_input();
+        if !busy && !self.was_typing {
             self.workbench.undo.seal();
         }
 

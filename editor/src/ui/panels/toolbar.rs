@@ -117,14 +117,16 @@ fn camera(editor: &mut Editor, ui: &mut Ui) {
         button(editor, ui, "Reset camera", Action::ResetCamera);
     });
     ui.separator();
-    let label = ui.label("Flying speed");
-    let mut speed = editor.workbench.camera.speed;
-    let field = DragValue::new(&mut speed)
-        .range(0.01..=10_000.0)
-        .speed(0.05)
-        .suffix(" m/s");
-    ui.add(field.max_decimals(2)).labelled_by(label.id);
-    editor.workbench.camera.speed = speed;
+    // Together on one line, where the toolbar takes two.
+    ui.horizontal(|ui| {
+        let label = ui.label("Flying speed");
+        let field = DragValue::new(&mut editor.workbench.camera.speed)
+            .range(0.01..=10_000.0)
+            .speed(0.05)
+            .max_decimals(2)
+            .suffix(" m/s");
+        ui.add(field).labelled_by(label.id);
+    });
 }
 
 /// What the handles of the selection do.
@@ -165,6 +167,7 @@ fn sight(editor: &mut Editor, ui: &mut Ui) {
     let now = workbench.sight();
     let title = |sight: &Sight| match sight {
         Sight::Perspective => "Perspective".to_owned(),
+        Sight::Camera(name) if name.is_empty() => "Scene".to_owned(),
         Sight::Camera(name) => name.clone(),
         Sight::Side(side) => side.title().to_owned(),
     };

@@ -160,7 +160,8 @@ fn listen(editor: &mut Editor, ui: &Ui, response: &Response) {
         let share = (at - response.rect.min) / response.rect.size();
         [share.x, share.y]
     });
-    let away = pointer.is_none() || ui.ctx().egui_wants_keyboard_input();
+    let typing = ui.ctx().egui_wants_keyboard_input() || editor.viewport.handles.is_dragged();
+    let away = pointer.is_none() || typing;
     workbench.scene_has_keys = !away && workbench.scene_wants_keys();
     if away {
         workbench.happen(SceneEvent::Leave);
@@ -341,7 +342,7 @@ fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     };
     let lines = [
         "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",
-        "Click a pixel to see what each pass does to it.",
+        "Click to choose an entity, and to see what each pass does to the pixel.",
         "Keys 1 to 9, [ and ] swap the pipeline; scene, camera and time stay.",
         third,
     ];

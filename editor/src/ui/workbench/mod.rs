@@ -40,8 +40,8 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
-use lightbench::script::overlays::Overlays;
 use lightbench::script::SceneEvent;
+use lightbench::script::overlays::Overlays;
 
 use self::camera::CameraRig;
 use self::clock::Clock;

@@ -110,10 +110,6 @@ impl Undo {
 
     /// Takes note of changes that belong together.
     pub(super) fn note(&mut self, what: String, changes: Vec<Change>) {
-        if changes.is_empty() {
-            return;
-        }
-        self.undone.clear();
         if self.goes_on
             && let Some(last) = self.done.last_mut()
             && last.changes_the_same(&changes)
@@ -123,10 +119,11 @@ impl Undo {
             }
             return;
         }
-        self.goes_on = true;
         if changes.iter().all(|change| change.before == change.after) {
             return;
         }
+        self.goes_on = true;
+        self.undone.clear();
         self.done.push(Step { what, changes });
         if self.done.len() > CAPACITY {
             self.done.remove(0);
@@ -306,8 +303,10 @@ mod tests {
         undo.note("b".to_owned(), change("b", 1.0, 2.0));
         undo.seal();
         undo.note("b".to_owned(), change("b", 2.0, 2.0));
+        undo.note("b".to_owned(), change("b", 2.0, 3.0));
+        assert_eq!(undo.done()[2].changes, change("b", 1.0, 2.0));
         let what: Vec<&str> = undo.done().iter().map(|step| step.what.as_str()).collect();
-        assert_eq!(what, ["a", "b", "b"]);
+        assert_eq!(what, ["a", "b", "b", "b"]);
         for _ in 0..CAPACITY {
             undo.seal();
             undo.note("c".to_owned(), change("c", 0.0, 1.0));
