@@ -189,7 +189,9 @@ fn the_mouse_and_keys_move_the_camera_and_time() {
     let moved = bench.picture();
     assert_ne!(moved, first);
     assert!(bench.harness.state().workbench.camera.is_moved());
-    bench.harness.key_press(Key::Home);
+    bench
+        .harness
+        .key_press_modifiers(egui::Modifiers::SHIFT, Key::Home);
     bench.harness.run_steps(2);
     assert_eq!(bench.harness.state().workbench.camera.view(), home);
     assert_eq!(bench.picture(), first);

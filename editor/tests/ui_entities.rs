@@ -352,7 +352,9 @@ fn each_action_is_a_line_that_does_the_same() {
     assert!(line.starts_with("entity(\"eye\").at("), "{line}");
     let view = bench.harness.state().workbench.camera.view();
     let picture = bench.picture();
-    bench.harness.key_press(Key::Home);
+    bench
+        .harness
+        .key_press_modifiers(Modifiers::SHIFT, Key::Home);
     bench.harness.run_steps(2);
     assert_eq!(bench.last_deed().what, "the scene's own camera again");
     reload(&mut bench, &format!("{lamps}\n{line}"));

@@ -4,6 +4,9 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::editor::Editor;
 use super::layout::Panel;
+use super::panels::handles::Tool;
+use super::panels::marks::Mark;
+use super::workbench::flat::Side;
 
 /// Something that a person can ask for without an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +21,26 @@ pub enum Action {
     Rewind,
     /// Show the whole scene.
     Frame,
+    /// Show all of what is chosen, or the whole scene where nothing is.
+    FrameSelection,
+    /// Look from a side, without perspective.
+    LookFrom(Side),
+    /// Back from an orthographic view to the camera that a person moves.
+    Perspective,
+    /// Show something over the picture, or hide it.
+    Mark(Mark),
+    /// Find an action, a scene or a pipeline by its name.
+    Palette,
+    /// Take back the last change by hand.
+    Undo,
+    /// Do again what was taken back.
+    Redo,
+    /// Choose what handles do.
+    Tool(Tool),
+    /// Handles along the axes of the entity, or of the world.
+    LocalAxes,
+    /// Choose no entity.
+    SelectNone,
     /// Back to the scene's camera.
     ResetCamera,
     /// The pipeline after the present one.
@@ -58,6 +81,16 @@ const fn command(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::COMMAND, key))
 }
 
+/// Ctrl, or the command key, and Shift.
+const COMMAND_SHIFT: Modifiers = Modifiers {
+    shift: true,
+    ..Modifiers::COMMAND
+};
+
+const fn shifted(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::SHIFT, key))
+}
+
 const fn entry(action: Action, title: &'static str, shortcut: Option<KeyboardShortcut>) -> Entry {
     Entry {
         action,
@@ -67,20 +100,74 @@ const fn entry(action: Action, title: &'static str, shortcut: Option<KeyboardSho
 }
 
 /// The menus, in their order, each with its groups of actions.
-pub const MENUS: [(&str, &[&[Entry]]); 5] = [
+pub const MENUS: [(&str, &[&[Entry]]); 6] = [
     (
         "File",
         &[
-            &[entry(Action::Reload, "Reload everything", key(Key::F5))],
+            &[
+                entry(Action::Palette, "Find an action", command(Key::P)),
+                entry(Action::Reload, "Reload everything", key(Key::F5)),
+            ],
             &[entry(Action::Quit, "Quit", command(Key::Q))],
+        ],
+    ),
+    (
+        "Edit",
+        &[
+            &[
+                // Before the key without Shift, which fits both.
+                entry(
+                    Action::Redo,
+                    "Redo",
+                    Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::Z)),
+                ),
+                entry(Action::Undo, "Undo", command(Key::Z)),
+            ],
+            &[
+                entry(Action::Tool(Tool::Move), "Move", key(Key::M)),
+                entry(Action::Tool(Tool::Turn), "Rotate", key(Key::R)),
+                entry(Action::Tool(Tool::Scale), "Scale", key(Key::X)),
+                entry(Action::LocalAxes, "Local axes", key(Key::L)),
+            ],
+            &[entry(
+                Action::SelectNone,
+                "Choose nothing",
+                key(Key::Escape),
+            )],
         ],
     ),
     (
         "View",
         &[
             &[
-                entry(Action::Frame, "Frame the scene", key(Key::F)),
-                entry(Action::ResetCamera, "Reset the camera", key(Key::Home)),
+                entry(Action::FrameSelection, "Frame the selection", key(Key::F)),
+                // Before the key without Shift, which fits both.
+                entry(Action::ResetCamera, "Reset the camera", shifted(Key::Home)),
+                entry(Action::Frame, "Frame the scene", key(Key::Home)),
+            ],
+            &[
+                entry(Action::Perspective, "Perspective", command(Key::Num0)),
+                entry(
+                    Action::LookFrom(Side::Top),
+                    "Top, orthographic",
+                    command(Key::Num1),
+                ),
+                entry(
+                    Action::LookFrom(Side::Front),
+                    "Front, orthographic",
+                    command(Key::Num2),
+                ),
+                entry(
+                    Action::LookFrom(Side::Right),
+                    "Side, orthographic",
+                    command(Key::Num3),
+                ),
+            ],
+            &[
+                entry(Action::Mark(Mark::Grid), "Grid and axes", None),
+                entry(Action::Mark(Mark::Icons), "Lights and cameras", None),
+                entry(Action::Mark(Mark::Selection), "Bounds and ranges", None),
+                entry(Action::Mark(Mark::Handles), "Handles", None),
             ],
             &[
                 entry(Action::Toggle(Panel::Passes), "Passes", None),
@@ -93,6 +180,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 5] = [
                 entry(Action::Toggle(Panel::Console), "Console", None),
                 entry(Action::Toggle(Panel::Actions), "Actions", None),
                 entry(Action::Toggle(Panel::Plots), "Plots", None),
+                entry(Action::Toggle(Panel::History), "History", None),
             ],
             &[
                 entry(Action::ResetLayout, "Reset the layout", None),
@@ -181,7 +269,19 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         let special = matches!(shortcut.logical_key, Key::F1 | Key::F5 | Key::Home);
         !scene_has_keys || special || shortcut.modifiers != Modifiers::NONE
     };
+    if editor.viewport.handles.is_dragged() {
+        // Keys are for its amount.
+        return;
+    }
+    if editor.palette.is_some() {
+        return;
+    }
+    // Escape closes a menu or leaves a field first.
+    let menu_is_open = egui::Popup::is_any_open(ctx) || editor.was_typing;
     for entry in entries() {
+        if entry.action == Action::SelectNone && menu_is_open {
+            continue;
+        }
         if let Some(shortcut) = entry.shortcut.filter(is_left)
             && ctx.input_mut(|input| input.consume_shortcut(&shortcut))
         {

@@ -1,5 +1,6 @@
 //! The editor: a workbench and the widgets around it.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -12,10 +13,14 @@ use super::kept::Kept;
 use super::layout::{self, Panel};
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
+use super::panels::marks::Marks;
+use super::panels::palette::Palette;
 use super::panels::plots::PlotsPanel;
+use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::screen::Screen;
 use super::workbench::Workbench;
+use super::workbench::sight::Sight;
 
 /// The state of the window's contents. [`Editor::ui`] draws it; who calls that owns the window.
 pub struct Editor {
@@ -28,6 +33,11 @@ pub struct Editor {
     pub(super) entities: EntitiesPanel,
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
+    pub(super) viewport: ViewportPanel,
+    /// The palette, while it is open.
+    pub(super) palette: Option<Palette>,
+    /// What is drawn over the picture.
+    pub(super) marks: Marks,
     /// What is kept over restarts.
     pub kept: Kept,
     /// A panel to show before those that share its place, once all are drawn.
@@ -36,6 +46,12 @@ pub struct Editor {
     pub(super) help: bool,
     pub(super) about: bool,
     quit: bool,
+    /// Whether a widget had the keys in the last frame.
+    pub(super) was_typing: bool,
+    /// The file that was brought last.
+    opened: Option<PathBuf>,
+    /// The swap of scenes that is kept among those of late.
+    remembered: u64,
 }
 
 impl Editor {
@@ -55,12 +71,18 @@ impl Editor {
             entities: EntitiesPanel::default(),
             console: ConsolePanel::default(),
             plots: PlotsPanel::default(),
+            viewport: ViewportPanel::default(),
+            palette: None,
+            marks: Marks::default(),
             kept,
             bring: None,
             hint: true,
             help: false,
             about: false,
             quit: false,
+            was_typing: false,
+            opened: None,
+            remembered: 0,
         }
     }
 
@@ -99,12 +121,23 @@ impl Editor {
                 self.layout = tree;
             }
         });
-        // A panel that somebody has hidden stays so.
-        let brought = self.bring.take();
+        // A panel that somebody has hidden stays so, and who works with entities goes on with them.
+        let brought = self.bring.take().filter(|panel| {
+            *panel != Panel::Pixel || !layout::is_in_front(&self.layout, Panel::Entities)
+        });
         if let Some(panel) = brought.filter(|panel| layout::is_visible(&self.layout, *panel)) {
             layout::set_visible(&mut self.layout, panel, true);
         }
         panels::help::show(self, &ctx);
+        panels::palette::show(self, &ctx);
+        self.take_dropped_files(&ctx);
+        self.remember_scene();
+
+        let busy = ctx.input(|input| input.pointer.any_down());
+        self.was_typing = ctx.egui_wants_keyboard_input();
+        if !busy && !self.was_typing {
+            self.workbench.undo.seal();
+        }
 
         if let Some(due) = self.workbench.next_due(now) {
             ctx.request_repaint_after(due);
@@ -120,7 +153,17 @@ impl Editor {
             Action::Stop => workbench.stop(),
             Action::Rewind => workbench.rewind(),
             Action::Frame => workbench.frame_scene(),
-            Action::ResetCamera => workbench.camera.reset(),
+            Action::FrameSelection => workbench.frame_selection(),
+            Action::ResetCamera => workbench.reset_camera(),
+            Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
+            Action::Perspective => workbench.look_through(Sight::Perspective),
+            Action::Mark(mark) => self.marks.toggle(mark),
+            Action::Palette => self.palette = Some(Palette::default()),
+            Action::Undo => _ = workbench.undo(),
+            Action::Redo => _ = workbench.redo(),
+            Action::Tool(tool) => self.viewport.handles.tool = tool,
+            Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
+            Action::SelectNone => workbench.selection.clear(),
             Action::NextPipeline => self.select_beside(1),
             Action::PreviousPipeline => self.select_beside(-1),
             Action::Reload => workbench.reload(),
@@ -141,6 +184,53 @@ impl Editor {
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
             Action::Quit => self.quit = true,
+        }
+    }
+
+    /// Opens a scene by its name, or a file by its path.
+    pub(super) fn open_scene(&mut self, name: &str) {
+        let path = Path::new(name);
+        if path.is_absolute() {
+            self.open_file(path);
+        } else {
+            self.workbench.select_scene(name);
+        }
+    }
+
+    /// Opens a file that somebody brought.
+    pub(super) fn open_file(&mut self, file: &Path) {
+        match self.workbench.open_file(file) {
+            Ok(()) => self.opened = std::path::absolute(file).ok(),
+            Err(why) => {
+                self.workbench.log.error(why);
+                layout::set_visible(&mut self.layout, Panel::Log, true);
+            }
+        }
+    }
+
+    /// Opens the files that were dropped onto the window.
+    fn take_dropped_files(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        for file in dropped.iter().map(|file| file.path()) {
+            self.open_file(file);
+        }
+    }
+
+    /// Keeps the scene on screen among those of late.
+    fn remember_scene(&mut self) {
+        let scenes = &self.workbench.scenes;
+        let Some(name) = scenes.shown().filter(|_| scenes.swaps() != self.remembered) else {
+            return;
+        };
+        self.remembered = scenes.swaps();
+        // A file of another folder has no name that holds over restarts, but a path.
+        let path = self.opened.as_deref().and_then(Path::to_str);
+        let is_outside = name.starts_with('@');
+        let known = if is_outside { path } else { Some(name) };
+        if let Some(known) = known.map(str::to_owned)
+            && let Err(error) = self.kept.remember_scene(&known)
+        {
+            self.workbench.log.warn(error);
         }
     }
 
@@ -183,6 +273,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Console => panels::console::show(self.editor, ui),
             Panel::Actions => panels::actions::show(self.editor, ui),
             Panel::Plots => panels::plots::show(self.editor, ui),
+            Panel::History => panels::history::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

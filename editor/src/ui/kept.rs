@@ -9,12 +9,17 @@ use serde_json::{Map, Value};
 /// Lines of the console that are kept.
 const MOST_LINES: usize = 200;
 
+/// Scenes that are kept.
+const MOST_SCENES: usize = 8;
+
 /// What is kept, and where.
 #[derive(Debug, Default)]
 pub struct Kept {
     path: Option<PathBuf>,
     /// Lines of the console, oldest first.
     pub console: Vec<String>,
+    /// Scenes of late, the last one first: names, or paths of files outside the project.
+    pub scenes: Vec<String>,
     /// What other versions of the program have written.
     others: Map<String, Value>,
 }
@@ -46,16 +51,18 @@ impl Kept {
             Some(Value::Object(map)) => map,
             _ => Map::new(),
         };
-        let console = match others.remove("console") {
+        let mut texts = |name: &str| match others.remove(name) {
             Some(Value::Array(lines)) => lines
                 .into_iter()
                 .filter_map(|line| line.as_str().map(str::to_owned))
                 .collect(),
             _ => Vec::new(),
         };
+        let (console, scenes) = (texts("console"), texts("scenes"));
         Self {
             path,
             console,
+            scenes,
             others,
         }
     }
@@ -74,12 +81,27 @@ impl Kept {
         self.write()
     }
 
+    /// Keeps a scene as the last one.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The scene is there until the program ends.
+    pub fn remember_scene(&mut self, name: &str) -> Result<(), String> {
+        if self.scenes.first().is_some_and(|first| first == name) {
+            return Ok(());
+        }
+        self.scenes.retain(|known| known != name);
+        self.scenes.insert(0, name.to_owned());
+        self.scenes.truncate(MOST_SCENES);
+        self.write()
+    }
+
     fn write(&self) -> Result<(), String> {
         let Some(path) = &self.path else {
             return Ok(());
         };
         let mut all = self.others.clone();
         all.insert("console".to_owned(), self.console.clone().into());
+        all.insert("scenes".to_owned(), self.scenes.clone().into());
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
             format!(
@@ -133,5 +155,21 @@ mod tests {
         assert!(kept.remember("a").unwrap_err().contains("not kept in"));
         assert_eq!(kept.console, ["a"]);
         Kept::read(None).remember("a").unwrap();
+    }
+
+    #[test]
+    fn the_last_scenes_are_kept_each_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("editor.json");
+        let mut kept = Kept::read(Some(path.clone()));
+        for name in ["a", "b", "a", "a"] {
+            kept.remember_scene(name).unwrap();
+        }
+        assert_eq!(Kept::read(Some(path)).scenes, ["a", "b"]);
+        for number in 0..20 {
+            kept.remember_scene(&number.to_string()).unwrap();
+        }
+        assert_eq!(kept.scenes.len(), MOST_SCENES);
+        assert_eq!(kept.scenes[0], "19");
     }
 }

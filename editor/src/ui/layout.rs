@@ -27,6 +27,8 @@ pub enum Panel {
     Actions,
     /// Curves that scripts plot.
     Plots,
+    /// What was changed by hand, to be taken back.
+    History,
 }
 
 impl Panel {
@@ -44,6 +46,7 @@ impl Panel {
             Self::Console => "Console",
             Self::Actions => "Actions",
             Self::Plots => "Plots",
+            Self::History => "History",
         }
     }
 }
@@ -59,7 +62,13 @@ pub fn first() -> Tree<Panel> {
         tiles.insert_tab_tile(panes)
     };
     let viewport = tabs(&[Panel::Viewport]);
-    let log = tabs(&[Panel::Log, Panel::Console, Panel::Actions, Panel::Plots]);
+    let log = tabs(&[
+        Panel::Log,
+        Panel::Console,
+        Panel::Actions,
+        Panel::History,
+        Panel::Plots,
+    ]);
     let parameters = tabs(&[Panel::Pipeline, Panel::Scene]);
     let passes = tabs(&[Panel::Passes]);
     let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
@@ -94,6 +103,12 @@ pub fn is_visible(tree: &Tree<Panel>, panel: Panel) -> bool {
     tree.tiles
         .find_pane(&panel)
         .is_some_and(|id| tree.tiles.is_visible(id))
+}
+
+/// Whether a panel can be seen: it is shown, and before those that share its place.
+pub fn is_in_front(tree: &Tree<Panel>, panel: Panel) -> bool {
+    let id = tree.tiles.find_pane(&panel);
+    id.is_some_and(|id| tree.active_tiles().contains(&id))
 }
 
 /// Shows a panel or hides it.

@@ -8,6 +8,7 @@ pub mod bench;
 pub mod editor;
 pub mod kept;
 pub mod layout;
+pub mod lens;
 mod panels;
 mod screen;
 mod surface;

@@ -6,10 +6,24 @@ use crate::ui::actions::{entries, key_text};
 use crate::ui::editor::Editor;
 
 /// What the mouse does in the viewport.
-const MOUSE: [(&str, &str); 6] = [
+const MOUSE: [(&str, &str); 11] = [
+    ("Choose an entity", "click; with Ctrl more of them"),
+    (
+        "Choose by a box",
+        "Shift and left drag; with Ctrl more of them",
+    ),
+    ("Probe a pixel", "click"),
+    (
+        "Move, rotate, scale",
+        "drag a handle; Ctrl snaps, digits give the amount",
+    ),
+    ("Open a file", "drop it onto the window"),
     ("Orbit", "left drag"),
     ("Look around", "right drag"),
-    ("Pan", "middle drag, or Shift and left drag"),
+    (
+        "Pan",
+        "middle drag, or Ctrl and left drag; any drag without perspective",
+    ),
     ("Zoom", "wheel"),
     ("Fly", "W A S D, E up, Q down, over the viewport"),
     ("Fly faster", "Shift"),

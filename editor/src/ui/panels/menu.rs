@@ -5,6 +5,7 @@ use egui::{Button, MenuBar, Ui};
 use crate::ui::actions::{Action, MENUS, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
+use crate::ui::panels::palette::scene_title;
 
 /// Draws the menu bar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -15,6 +16,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 if *title == "Pipeline" {
                     pipelines(editor, ui);
                 }
+                if *title == "File" {
+                    scenes_of_late(editor, ui);
+                }
                 for (index, group) in groups.iter().enumerate() {
                     if index > 0 {
                         ui.separator();
@@ -22,6 +26,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                     for entry in *group {
                         let mark = match entry.action {
                             Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
+                            Action::Tool(tool) => editor.viewport.handles.tool == tool,
+                            Action::LocalAxes => editor.viewport.handles.local,
+                            Action::Mark(mark) => editor.marks.has(mark),
                             _ => false,
                         };
                         let mut button = Button::new(entry.title).selected(mark);
@@ -38,6 +45,23 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             });
         }
     });
+}
+
+/// The scenes that were shown last.
+fn scenes_of_late(editor: &mut Editor, ui: &mut Ui) {
+    let mut wanted = None;
+    ui.menu_button("Recent scenes", |ui| {
+        for name in &editor.kept.scenes {
+            if ui.button(scene_title(editor, name)).clicked() {
+                wanted = Some(name.clone());
+            }
+        }
+    });
+    ui.separator();
+    if let Some(name) = wanted {
+        editor.open_scene(&name);
+        ui.close();
+    }
 }
 
 /// All pipelines with the keys of the first nine.

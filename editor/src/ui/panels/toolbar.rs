@@ -5,7 +5,10 @@ use egui::{Button, DragValue, RichText, Ui};
 use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
+use crate::ui::panels::handles::Tool;
 use crate::ui::theme::Palette;
+use crate::ui::workbench::flat::Side;
+use crate::ui::workbench::sight::Sight;
 
 /// Draws the toolbar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -19,6 +22,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         time(editor, ui);
         ui.separator();
         camera(editor, ui);
+        ui.separator();
+        handles(editor, ui);
     });
     ui.add_space(1.0);
 }
@@ -106,19 +111,85 @@ fn time(editor: &mut Editor, ui: &mut Ui) {
 
 fn camera(editor: &mut Editor, ui: &mut Ui) {
     button(editor, ui, "Frame", Action::Frame);
-    let moved = editor.workbench.camera.is_moved();
-    ui.add_enabled_ui(moved, |ui| {
+    sight(editor, ui);
+    let away = editor.workbench.is_camera_away();
+    ui.add_enabled_ui(away, |ui| {
         button(editor, ui, "Reset camera", Action::ResetCamera);
     });
     ui.separator();
-    let label = ui.label("Flying speed");
-    let mut speed = editor.workbench.camera.speed;
-    let field = DragValue::new(&mut speed)
-        .range(0.01..=10_000.0)
-        .speed(0.05)
-        .suffix(" m/s");
-    ui.add(field.max_decimals(2)).labelled_by(label.id);
-    editor.workbench.camera.speed = speed;
+    // Together on one line, where the toolbar takes two.
+    ui.horizontal(|ui| {
+        let label = ui.label("Flying speed");
+        let field = DragValue::new(&mut editor.workbench.camera.speed)
+            .range(0.01..=10_000.0)
+            .speed(0.05)
+            .max_decimals(2)
+            .suffix(" m/s");
+        ui.add(field).labelled_by(label.id);
+    });
+}
+
+/// What the handles of the selection do.
+fn handles(editor: &mut Editor, ui: &mut Ui) {
+    for tool in Tool::ALL {
+        let chosen = editor.viewport.handles.tool == tool;
+        let mut response = ui.selectable_label(chosen, tool.title());
+        if let Some(key) = shortcut_text(ui.ctx(), Action::Tool(tool)) {
+            response = response.on_hover_text(key);
+        }
+        if response.clicked() {
+            editor.viewport.handles.tool = tool;
+        }
+    }
+    let handles = &mut editor.viewport.handles;
+    let about = "Handles along the axes of the entity that was chosen last";
+    ui.checkbox(&mut handles.local, "Local")
+        .on_hover_text(about);
+    let label = ui.label("Snap");
+    let (step, range, suffix) = match handles.tool {
+        Tool::Move => (&mut handles.snap.distance, 0.001..=1000.0, " m"),
+        Tool::Turn => (&mut handles.snap.angle, 0.1..=180.0, "°"),
+        Tool::Scale => (&mut handles.snap.scale, 0.01..=10.0, " x"),
+    };
+    let field = DragValue::new(step)
+        .range(range)
+        .speed(0.01)
+        .max_decimals(3)
+        .suffix(suffix);
+    ui.add(field)
+        .labelled_by(label.id)
+        .on_hover_text("The steps in which handles go while Ctrl is held");
+}
+
+/// What the viewport looks through.
+fn sight(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let now = workbench.sight();
+    let title = |sight: &Sight| match sight {
+        Sight::Perspective => "Perspective".to_owned(),
+        Sight::Camera(name) if name.is_empty() => "Scene".to_owned(),
+        Sight::Camera(name) => name.clone(),
+        Sight::Side(side) => side.title().to_owned(),
+    };
+    let cameras = workbench.cameras().into_iter().map(Sight::Camera);
+    let all: Vec<Sight> = [Sight::Perspective]
+        .into_iter()
+        .chain(Side::ALL.map(Sight::Side))
+        .chain(cameras)
+        .collect();
+    let mut wanted = None;
+    widgets::combo(ui, "View", &title(&now), 90.0, |ui| {
+        for (index, sight) in all.iter().enumerate() {
+            ui.push_id(index, |ui| {
+                if ui.selectable_label(*sight == now, title(sight)).clicked() {
+                    wanted = Some(sight.clone());
+                }
+            });
+        }
+    });
+    if let Some(sight) = wanted {
+        workbench.look_through(sight);
+    }
 }
 
 fn button(editor: &mut Editor, ui: &mut Ui, label: &str, action: Action) {

@@ -10,9 +10,11 @@ use lightbench::render::Problem;
 use lightbench::script::SceneEvent;
 use lightbench::world::glam::{Vec2, Vec3};
 
-use super::heat_map;
+use super::handles::{self, Handles};
+use super::{heat_map, marks, select};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
+use crate::ui::lens::Lens;
 use crate::ui::screen::Place;
 use crate::ui::theme::Palette;
 
@@ -27,12 +29,19 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Viewport"));
-    steer(editor, ui, &response);
+    let lens = Lens::new(rect, editor.workbench.camera.view());
+    let held =
+        handles::interact(editor, ui, &response, &lens) || select_box(editor, ui, &response, &lens);
+    if !held {
+        steer(editor, ui, &response);
+    }
 
     if let Some(at) = response
         .interact_pointer_pos()
         .filter(|_| response.clicked())
     {
+        let more = ui.input(|input| input.modifiers.command);
+        select::click(editor, &lens, at, more);
         probe(editor, rect, at);
         let share = (at - rect.min) / rect.size();
         editor
@@ -57,6 +66,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         painter.image(id, rect, whole, Color32::WHITE);
     }
 
+    // The camera may have moved since.
+    let lens = Lens::new(rect, editor.workbench.camera.view());
+    marks::show(editor, ui, &lens);
+    handles::show(editor, ui, &lens, response.hover_pos());
+    if let Some(area) = editor.viewport.area {
+        select::show(ui, &lens, area);
+    }
     probed_pixel(editor, ui, rect);
     if let Some(pipeline) = editor.workbench.pipelines.shown_pipeline() {
         heat_map::legend(ui, rect, &pipeline.desc);
@@ -70,6 +86,37 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     if editor.hint {
         hint(editor, ui, rect);
     }
+}
+
+/// What the viewport remembers from frame to frame.
+#[derive(Default)]
+pub struct ViewportPanel {
+    /// The box that is being drawn around what is to be chosen.
+    area: Option<Rect>,
+    /// The handles of what is chosen.
+    pub handles: Handles,
+}
+
+/// Draws a box with Shift, and chooses what is in it. Returns whether it has the pointer.
+fn select_box(editor: &mut Editor, ui: &Ui, response: &Response, lens: &Lens) -> bool {
+    let (modifiers, origin) = ui.input(|input| (input.modifiers, input.pointer.press_origin()));
+    if response.drag_started_by(PointerButton::Primary) && modifiers.shift {
+        editor.viewport.area = origin.map(|at| Rect::from_two_pos(at, at));
+    }
+    let Some(area) = editor.viewport.area else {
+        return false;
+    };
+    let corner = ui.input(|input| input.pointer.latest_pos());
+    let area = match (origin, corner) {
+        (Some(from), Some(to)) => Rect::from_two_pos(from, to),
+        _ => area,
+    };
+    editor.viewport.area = Some(area);
+    if !response.dragged_by(PointerButton::Primary) {
+        editor.viewport.area = None;
+        select::within(editor, lens, area, modifiers.command);
+    }
+    true
 }
 
 /// Asks what the passes do to the pixel under the pointer.
@@ -113,7 +160,8 @@ fn listen(editor: &mut Editor, ui: &Ui, response: &Response) {
         let share = (at - response.rect.min) / response.rect.size();
         [share.x, share.y]
     });
-    let away = pointer.is_none() || ui.ctx().egui_wants_keyboard_input();
+    let typing = ui.ctx().egui_wants_keyboard_input() || editor.viewport.handles.is_dragged();
+    let away = pointer.is_none() || typing;
     workbench.scene_has_keys = !away && workbench.scene_wants_keys();
     if away {
         workbench.happen(SceneEvent::Leave);
@@ -148,8 +196,11 @@ fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
     let drag = Vec2::new(drag.x, drag.y);
     let height = response.rect.height().max(1.0);
     let shift = ui.input(|input| input.modifiers.shift);
+    let control = ui.input(|input| input.modifiers.command);
     let by = |button| response.dragged_by(button) && drag != Vec2::ZERO;
-    if by(PointerButton::Middle) || by(PointerButton::Primary) && shift {
+    let is_flat = camera.flat().is_some();
+    let turns = by(PointerButton::Primary) || by(PointerButton::Secondary);
+    if by(PointerButton::Middle) || by(PointerButton::Primary) && control || is_flat && turns {
         camera.pan(drag / height);
     } else if by(PointerButton::Primary) {
         camera.orbit(-drag * TURN);
@@ -291,7 +342,7 @@ fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     };
     let lines = [
         "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",
-        "Click a pixel to see what each pass does to it.",
+        "Click to choose an entity, and to see what each pass does to the pixel.",
         "Keys 1 to 9, [ and ] swap the pipeline; scene, camera and time stay.",
         third,
     ];

@@ -5,6 +5,8 @@
 use lightbench::render::View;
 use lightbench::world::glam::{Quat, Vec2, Vec3};
 
+use super::flat::{Flat, Side};
+
 /// How near to straight up or down the camera may look, radians.
 const MAX_PITCH: f32 = 1.55;
 
@@ -24,6 +26,8 @@ pub struct CameraRig {
     /// The scene's camera, which the rig follows until it is moved.
     home: View,
     moved: bool,
+    /// The orthographic view that is shown in place of the camera's own.
+    flat: Option<Flat>,
 }
 
 impl Default for CameraRig {
@@ -37,6 +41,7 @@ impl Default for CameraRig {
             lens: View::default(),
             home: View::default(),
             moved: false,
+            flat: None,
         };
         rig.take(View::default());
         rig
@@ -55,6 +60,7 @@ impl CameraRig {
     /// Back to the scene's camera.
     pub fn reset(&mut self) {
         self.moved = false;
+        self.flat = None;
         self.take(self.home);
     }
 
@@ -63,8 +69,27 @@ impl CameraRig {
         self.moved
     }
 
+    /// The orthographic view that is shown, if one is.
+    pub fn flat(&self) -> Option<&Flat> {
+        self.flat.as_ref()
+    }
+
+    /// Shows all of a box from a side, without perspective.
+    pub fn flatten(&mut self, side: Side, min: Vec3, max: Vec3) {
+        self.flat = Some(Flat::of_box(side, min, max));
+    }
+
+    /// A perspective that follows nothing, from where the camera was last.
+    pub fn let_go(&mut self) {
+        self.flat = None;
+        self.moved = true;
+    }
+
     /// The view to draw.
     pub fn view(&self) -> View {
+        if let Some(flat) = &self.flat {
+            return flat.view();
+        }
         if !self.moved {
             // As the scene has it, roll included.
             return self.home;
@@ -106,6 +131,9 @@ impl CameraRig {
 
     /// Moves across the view; `by` is in picture heights at the pivot's distance.
     pub fn pan(&mut self, by: Vec2) {
+        if let Some(flat) = &mut self.flat {
+            return flat.pan(by);
+        }
         let height = 2.0 * self.distance * (self.lens.fov_y * 0.5).tan();
         let rotation = self.rotation();
         self.eye += rotation * Vec3::new(-by.x, by.y, 0.0) * height;
@@ -114,6 +142,9 @@ impl CameraRig {
 
     /// Moves towards the pivot; each unit covers a tenth of the way.
     pub fn zoom(&mut self, amount: f32) {
+        if let Some(flat) = &mut self.flat {
+            return flat.zoom(amount);
+        }
         let pivot = self.pivot();
         self.distance = (self.distance * 0.9_f32.powf(amount)).clamp(0.01, 1e6);
         self.eye = pivot - self.forward() * self.distance;
@@ -126,12 +157,20 @@ impl CameraRig {
             return;
         }
         let step = direction.normalize() * self.speed * seconds;
+        if let Some(flat) = &mut self.flat {
+            // There is nowhere to go ahead: what is nearer is not larger.
+            flat.pan(Vec2::new(-step.x, step.y) / flat.height);
+            return;
+        }
         self.eye += self.rotation() * step;
         self.moved = true;
     }
 
     /// Shows all of a box from the present direction.
     pub fn frame(&mut self, min: Vec3, max: Vec3) {
+        if let Some(flat) = &mut self.flat {
+            return flat.frame(min, max);
+        }
         let radius = ((max - min).length() * 0.5).max(1e-3);
         self.distance = radius / (self.lens.fov_y * 0.5).sin();
         self.eye = (min + max) * 0.5 - self.forward() * self.distance;

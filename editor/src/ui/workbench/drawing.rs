@@ -139,9 +139,10 @@ impl Workbench {
         self.renderer.in_flight() < most
     }
 
-    /// Whether the picture shows the present state of scene and pipeline.
+    /// Whether the picture shows the present state of scene, pipeline and camera.
     pub fn picture_is_current(&self) -> bool {
-        !self.canvas.stale
+        let view = self.camera.view();
+        !self.canvas.stale && self.canvas.drawn.is_none_or(|drawn| drawn.view == view)
     }
 
     /// Whether a scene and a pipeline are there to draw.

@@ -1,9 +1,25 @@
 //! How large the scene is, for the camera.
 
-use lightbench::world::WorldBounds;
+use lightbench::script::Scene;
 use lightbench::world::glam::Vec3;
+use lightbench::world::{Entity, WorldBounds, WorldMatrix};
 
 use super::Workbench;
+
+/// A box around the meshes of an entity and of all below it.
+pub fn bounds_of(scene: &Scene, entity: Entity) -> Option<(Vec3, Vec3)> {
+    let below = scene.world.descendants(entity).into_iter();
+    below
+        .chain([entity])
+        .filter_map(|entity| {
+            let b: WorldBounds = scene.world.get(entity)?;
+            let center = Vec3::new(b.x, b.y, b.z);
+            let half = Vec3::new(b.half_x, b.half_y, b.half_z);
+            Some((center - half, center + half))
+        })
+        .filter(|(min, max)| min.is_finite() && max.is_finite())
+        .reduce(|(a, b), (min, max)| (a.min(min), b.max(max)))
+}
 
 impl Workbench {
     /// Shows the whole scene from the present direction.
@@ -11,6 +27,34 @@ impl Workbench {
         if let Some((min, max)) = self.scene_bounds() {
             self.camera.frame(min, max);
         }
+    }
+
+    /// Shows all of what is chosen from the present direction, or the whole scene where nothing is.
+    pub fn frame_selection(&mut self) {
+        match self.selection_bounds() {
+            Some((min, max)) => self.camera.frame(min, max),
+            None => self.frame_scene(),
+        }
+    }
+
+    /// A box around what is chosen and all below it; what has no mesh counts with the metre around
+    /// it.
+    fn selection_bounds(&self) -> Option<(Vec3, Vec3)> {
+        let scene = self.scenes.scene()?;
+        let boxes = self.selection.entities().filter_map(|entity| {
+            bounds_of(scene, entity).or_else(|| {
+                let matrix: WorldMatrix = scene.world.get(entity)?;
+                let at = Vec3::from(matrix.matrix.translation);
+                Some((at - Vec3::splat(0.5), at + Vec3::splat(0.5)))
+            })
+        });
+        boxes.reduce(|(a, b), (min, max)| (a.min(min), b.max(max)))
+    }
+
+    /// Back to the scene's own camera.
+    pub fn reset_camera(&mut self) {
+        self.watched_camera = None;
+        self.camera.reset();
     }
 
     /// A box around everything that is drawn.

@@ -1,13 +1,14 @@
-//! What a person changes by hand: fields of entities, parameters, lines of the console.
+//! What a person changes by hand: fields of entities, and by lines of the console.
 
 use lightbench::render::Problem;
+use lightbench::script::LogLine;
 use lightbench::script::overlays::{Overlays, line};
-use lightbench::script::{LogLine, SettingValue};
 use lightbench::world::{Entity, Value};
 
 use super::Workbench;
 use super::history::Script;
 use super::log::Level;
+use super::undo::{Change, Content, Target};
 
 /// What came of a line of the console.
 #[derive(Debug)]
@@ -29,20 +30,105 @@ impl Workbench {
     /// # Errors
     /// A sentence that says why it can't be.
     pub fn set_field(&mut self, entity: Entity, path: &str, value: Value) -> Result<(), String> {
+        let name = self.name_kept(entity)?;
+        self.set_fields(&format!("{path} of {name}"), &[(entity, path, value)])
+    }
+
+    /// Changes fields of entities by hand, in one step that `what` names.
+    ///
+    /// # Errors
+    /// A sentence that says why one can't be changed. Those before it are.
+    pub fn set_fields(
+        &mut self,
+        what: &str,
+        fields: &[(Entity, &str, Value)],
+    ) -> Result<(), String> {
+        let mut changes = Vec::with_capacity(fields.len());
+        let mut result = Ok(());
+        for (entity, path, value) in fields {
+            let name = match self.name_kept(*entity) {
+                Ok(name) => name,
+                Err(why) => {
+                    result = Err(why);
+                    break;
+                }
+            };
+            let before = self.field_content(&name, path);
+            result = self.lay_field(&name, path, value);
+            if result.is_err() {
+                break;
+            }
+            changes.push(Change {
+                target: Target::Field {
+                    entity: name,
+                    path: (*path).to_owned(),
+                },
+                before,
+                after: Some(Content::Value(value.clone())),
+            });
+        }
+        self.undo.note(what.to_owned(), changes);
+        result
+    }
+
+    fn name_kept(&self, entity: Entity) -> Result<String, String> {
+        let scene = self.scenes.scene();
+        let scene = scene.ok_or_else(|| "no scene is loaded".to_owned())?;
+        scene.keeps_by_name(entity)
+    }
+
+    /// Lays a value over a field.
+    pub(super) fn lay_field(
+        &mut self,
+        entity: &str,
+        path: &str,
+        value: &Value,
+    ) -> Result<(), String> {
         let name = self.scenes.shown().unwrap_or_default().to_owned();
         let overlays = self.overlays.entry(name).or_default();
         let Some(scene) = self.scenes.scene_mut() else {
             return Err("no scene is loaded".to_owned());
         };
-        overlays.set(scene, entity, path, value.clone())?;
-        let name = scene.keeps_by_name(entity)?;
-        self.note_field(&name, path, &value, "changed by hand");
+        let found = scene.world.find(entity);
+        let found = found.ok_or_else(|| format!("nothing is called `{entity}` now"))?;
+        overlays.set(scene, found, path, value.clone())?;
+        self.note_field(entity, path, value, "changed by hand");
         self.canvas.invalidate();
         Ok(())
     }
 
     /// Gives a field back to the scene's script.
     pub fn reset_field(&mut self, entity: &str, path: &str) {
+        let all = self.lifted(Some(entity)).into_iter();
+        let of_it = |change: &Change| matches!(&change.target, Target::Field { path: own, .. } if own == path);
+        let changes = all.filter(of_it).collect();
+        self.lift(format!("{path} of {entity} back to the script"), changes);
+    }
+
+    /// Gives all fields of an entity back to the scene's script.
+    pub fn reset_entity(&mut self, entity: &str) {
+        let changes = self.lifted(Some(entity));
+        self.lift(format!("{entity} back to the script"), changes);
+    }
+
+    /// Gives everything back to the scene's script.
+    pub fn reset_all_fields(&mut self) {
+        let changes = self.lifted(None);
+        self.lift("all back to the script".to_owned(), changes);
+    }
+
+    fn lift(&mut self, what: String, changes: Vec<Change>) {
+        for change in &changes {
+            if let Target::Field { entity, path } = &change.target {
+                self.lift_field(entity, path);
+            }
+        }
+        self.undo.seal();
+        self.undo.note(what, changes);
+        self.undo.seal();
+    }
+
+    pub(super) fn lift_field(&mut self, entity: &str, path: &str) {
         let script = self.overlays_now().and_then(|overlays| {
             let overlay = overlays.get(entity, path)?;
             overlay.script.clone()
@@ -55,32 +141,11 @@ impl Workbench {
         }
     }
 
-    /// Gives all fields of an entity back to the scene's script.
-    pub fn reset_entity(&mut self, entity: &str) {
-        for (_, path) in self.fields_of(Some(entity)) {
-            self.reset_field(entity, &path);
-        }
-    }
-
-    /// Gives everything back to the scene's script.
-    pub fn reset_all_fields(&mut self) {
-        for (entity, path) in self.fields_of(None) {
-            self.reset_field(&entity, &path);
-        }
-    }
-
     /// All that was changed by hand, as lines for the end of the scene's script.
     pub fn overlay_lines(&self) -> String {
         let all = self.overlays_now().into_iter().flat_map(Overlays::iter);
         let lines = all.filter_map(|(entity, path, overlay)| line(entity, path, &overlay.value));
         lines.collect::<Vec<_>>().join("\n")
-    }
-
-    fn fields_of(&self, entity: Option<&str>) -> Vec<(String, String)> {
-        let all = self.overlays_now().into_iter().flat_map(Overlays::iter);
-        all.filter(|(name, ..)| entity.is_none_or(|entity| *name == entity))
-            .map(|(name, path, _)| (name.to_owned(), path.to_owned()))
-            .collect()
     }
 
     pub(super) fn on_overlays(
@@ -100,44 +165,6 @@ impl Workbench {
         if let Some(line) = line(entity, path, value) {
             let target = format!("field {entity} {path}");
             let what = format!("{path} of {entity}, {what}");
-            self.history.add(&target, what, Script::Scene, line);
-        }
-    }
-
-    /// Gives a parameter of the selected pipeline a value, or with `None` its default.
-    pub fn set_pipeline_parameter(&mut self, parameter: &str, value: Option<SettingValue>) {
-        match value {
-            Some(value) => self.pipelines.set(parameter, value),
-            None => self.pipelines.unset(parameter),
-        }
-        self.did(
-            &format!("pipeline parameter {parameter}"),
-            format!("the pipeline's parameter {parameter}"),
-        );
-    }
-
-    /// Gives a parameter of the selected scene a value, or with `None` its default.
-    pub fn set_scene_parameter(&mut self, parameter: &str, value: Option<SettingValue>) {
-        match value {
-            Some(value) => self.scenes.set(parameter, value),
-            None => self.scenes.unset(parameter),
-        }
-        self.did(
-            &format!("scene parameter {parameter}"),
-            format!("the scene's parameter {parameter}"),
-        );
-    }
-
-    /// Gives a parameter of an entity's behaviour a value.
-    pub fn set_behaviour_parameter(&mut self, entity: Entity, name: &str, value: &SettingValue) {
-        let Some(scene) = self.scenes.scene_mut() else {
-            return;
-        };
-        if let Err(error) = scene.set_behaviour(entity, name, value) {
-            self.log.error(error);
-        } else if let Some(line) = scene.behaviour_line(entity) {
-            let target = format!("behaviour {entity} {name}");
-            let what = format!("the behaviour's parameter {name}");
             self.history.add(&target, what, Script::Scene, line);
         }
     }

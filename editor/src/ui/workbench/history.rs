@@ -111,6 +111,10 @@ impl Workbench {
 
     /// Takes note of where a person has moved the camera, as soon as it moved.
     pub(super) fn note_camera(&mut self) {
+        if self.camera.flat().is_some() {
+            // No camera of a script sees without perspective.
+            return;
+        }
         let moved = self.camera.is_moved();
         let view = moved.then(|| self.camera.view());
         if view == self.noted_view {

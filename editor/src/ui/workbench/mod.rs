@@ -9,18 +9,26 @@ pub mod camera;
 pub mod clock;
 pub mod compiling;
 mod drawing;
-mod extent;
+pub mod extent;
 pub mod fields;
+pub mod flat;
 pub mod hand;
 pub mod history;
 pub mod library;
 pub mod log;
+pub mod opening;
+pub mod picking;
 pub mod pipelines;
 mod play;
 pub mod probing;
 pub mod resolution;
+mod running;
 pub mod scenes;
+pub mod selection;
+mod setting;
+pub mod sight;
 pub mod timing;
+pub mod undo;
 mod watching;
 
 use std::collections::BTreeMap;
@@ -32,22 +40,23 @@ use lightbench::render::problem::Problems;
 use lightbench::render::{
     FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
 };
+use lightbench::script::SceneEvent;
 use lightbench::script::overlays::Overlays;
-use lightbench::script::{PipelineChoice, Ray, Scene, SceneEvent};
-use lightbench::world::glam::Vec3;
 
 use self::camera::CameraRig;
 use self::clock::Clock;
 use self::drawing::Canvas;
 use self::history::History;
 use self::library::Library;
-use self::log::{Level, Log};
+use self::log::Log;
 use self::pipelines::{News, Pipelines};
 use self::play::Before;
 use self::probing::Probing;
 use self::resolution::Resolution;
 use self::scenes::{Loaded, Scenes};
+use self::selection::Selection;
 use self::timing::Timings;
+use self::undo::Undo;
 use self::watching::Watch;
 use super::EditorOptions;
 
@@ -76,6 +85,10 @@ pub struct Workbench {
     noted_time: Option<&'static str>,
     /// The moved camera that the history knows.
     noted_view: Option<View>,
+    /// The camera of the scene through which a person wants to look, by its name.
+    watched_camera: Option<String>,
+    /// The entities that are chosen.
+    pub selection: Selection,
     /// Visited pipelines.
     pub pipelines: Pipelines,
     /// The scene.
@@ -96,6 +109,8 @@ pub struct Workbench {
     pub probing: Probing,
     /// What was done, as lines of scripts.
     pub history: History,
+    /// What can be taken back.
+    pub undo: Undo,
 }
 
 impl Workbench {
@@ -135,11 +150,14 @@ impl Workbench {
             timings: Timings::default(),
             probing: Probing::default(),
             history: History::default(),
+            undo: Undo::default(),
             overlays: BTreeMap::new(),
             before: None,
             ran_into_a_problem: false,
             noted_time: None,
             noted_view: None,
+            watched_camera: None,
+            selection: Selection::default(),
         };
         this.library.refresh(&this.files, &this.wake);
         this.scenes
@@ -282,6 +300,9 @@ impl Workbench {
         }
         self.follow_camera();
         self.note_camera();
+        if let Some(scene) = self.scenes.scene() {
+            self.selection.refresh(scene, self.scenes.swaps());
+        }
         self.take_measurements();
     }
 
@@ -359,6 +380,9 @@ impl Workbench {
             self.before = None;
             // Its camera is another one, which nobody moved.
             self.noted_view = None;
+            self.watched_camera = None;
+            // Names are those of another scene's entities.
+            self.undo.clear();
             self.clock.rewind();
             self.clock.playing = animated;
             self.camera.reset();
@@ -371,56 +395,6 @@ impl Workbench {
         self.canvas.invalidate();
     }
 
-    /// Lets the scene's script and systems move things; a mistake stops time and shows.
-    fn update_scene(&mut self, step: f64) {
-        let Some(scene) = self.scenes.scene_mut() else {
-            self.clock.refresh();
-            return;
-        };
-        let result = scene.update(self.clock.time(), step);
-        self.timings.stepped(scene.system_times());
-        let still_moves = scene.moves();
-        for line in scene.take_log() {
-            self.log.add(Level::Script, Some(line.place), line.text);
-        }
-        self.follow_pipeline_choice();
-        self.on_overlays(Overlays::follow);
-        if let Err(problem) = result {
-            self.ran_into_a_problem = true;
-            self.log.problem(&problem);
-            self.scenes.set_problems(Some(Problems(vec![problem])));
-            // One behaviour may fail and the others go on.
-            self.clock.playing &= still_moves;
-        }
-        self.canvas.invalidate();
-    }
-
-    /// Whether keys over the picture are for the scene's scripts: they hear some, and time runs.
-    pub fn scene_wants_keys(&self) -> bool {
-        self.clock.playing && self.scenes.scene().is_some_and(Scene::hears_keys)
-    }
-
-    /// Swaps to the pipeline that the scene's scripts ask for.
-    fn follow_pipeline_choice(&mut self) {
-        let choice = self
-            .scenes
-            .scene_mut()
-            .and_then(Scene::take_pipeline_choice);
-        let Some(PipelineChoice { name, settings }) = choice else {
-            return;
-        };
-        let before = self.pipelines.shown().map(str::to_owned);
-        // A script may ask in each step; what is so already is not built again.
-        let slot = self.pipelines.slot(&name);
-        let is_so = slot.is_some_and(|slot| slot.settings == settings);
-        match (is_so, self.pipelines.selected() == name) {
-            (true, true) => {}
-            (true, false) => self.pipelines.select(&name),
-            (false, _) => self.pipelines.select_with(&name, settings),
-        }
-        self.pipeline_shown(before.as_deref());
-    }
-
     /// Tells the scene's scripts what happens in the viewport.
     pub fn happen(&mut self, event: SceneEvent) {
         if let Some(scene) = self.scenes.scene_mut() {
@@ -428,24 +402,13 @@ impl Workbench {
         }
     }
 
-    /// Tells them of a click at shares of the picture's width and height, from the upper left.
-    pub fn click(&mut self, share: [f32; 2], aspect: f32) {
-        let view = self.camera.view();
-        let to_world = (view.projection(aspect) * view.view).inverse();
-        let ndc = Vec3::new(2.0 * share[0] - 1.0, 1.0 - 2.0 * share[1], 1.0);
-        // Depth is reversed: 1 is the near plane.
-        let near = to_world.project_point3(ndc);
-        let origin = view.view.inverse().transform_point3(Vec3::ZERO);
-        let direction = near - origin;
-        self.happen(SceneEvent::Click(Ray { origin, direction }));
-    }
-
     fn follow_camera(&mut self) {
         let Some(scene) = self.scenes.scene_mut() else {
             return;
         };
         scene.refresh();
-        let home = View::from_world(&scene.world).unwrap_or_default();
+        let first = View::from_world(&scene.world).unwrap_or_default();
+        let home = self.watched_view().unwrap_or(first);
         self.camera.follow(home);
     }
 

@@ -143,6 +143,11 @@ impl Scenes {
         self.wanted = true;
     }
 
+    /// Reads files from another store from the next load on.
+    pub fn use_files(&mut self, files: Files) {
+        self.files = files;
+    }
+
     /// Loads the selected scene again.
     pub fn reload(&mut self) {
         self.wanted = !self.selected.is_empty();

@@ -4,12 +4,25 @@ use egui::{RichText, ScrollArea, TextEdit, Ui};
 use lightbench::script::Scene;
 use lightbench::world::{Entity, Name, RowOrder, Tick, Transform, World};
 
+use crate::ui::workbench::selection::Selection;
+
 /// The entities whose names fit the filter.
 #[derive(Default)]
 pub struct Rows {
     filter: String,
     rows: Vec<Entity>,
     made: Option<Made>,
+}
+
+/// What a click on a row does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Chooses it alone.
+    Only,
+    /// With Ctrl: chooses it too, or no longer.
+    Toggle,
+    /// With Shift: chooses all rows up to it too.
+    UpTo,
 }
 
 /// What the rows were made from.
@@ -65,14 +78,28 @@ impl Rows {
         });
     }
 
-    /// Draws filter and list. Returns the entity that was clicked.
+    /// The rows from one to another, this one last; the other alone where the first is not listed.
+    pub fn between(&self, from: Option<Entity>, to: Entity) -> Vec<Entity> {
+        let row_of = |entity| self.rows.iter().position(|row| *row == entity);
+        let ends = from.and_then(row_of).zip(row_of(to));
+        let Some((from, to_row)) = ends else {
+            return vec![to];
+        };
+        let mut rows = self.rows[from.min(to_row)..=from.max(to_row)].to_vec();
+        if to_row < from {
+            rows.reverse();
+        }
+        rows
+    }
+
+    /// Draws filter and list. Returns the entity that was clicked, and how.
     pub fn show(
         &mut self,
         ui: &mut Ui,
         scene: &Scene,
-        selected: Option<Entity>,
+        selection: &Selection,
         height: f32,
-    ) -> Option<Entity> {
+    ) -> Option<(Entity, Choice)> {
         ui.horizontal(|ui| {
             let label = ui.label("Filter");
             let field = TextEdit::singleline(&mut self.filter).desired_width(140.0);
@@ -96,9 +123,15 @@ impl Rows {
                     text = text.weak();
                 }
                 ui.push_id(entity, |ui| {
-                    let label = ui.selectable_label(selected == Some(entity), text);
+                    let label = ui.selectable_label(selection.contains(entity), text);
                     if label.clicked() {
-                        clicked = Some(entity);
+                        let modifiers = ui.input(|input| input.modifiers);
+                        let how = match (modifiers.command, modifiers.shift) {
+                            (true, _) => Choice::Toggle,
+                            (false, true) => Choice::UpTo,
+                            (false, false) => Choice::Only,
+                        };
+                        clicked = Some((entity, how));
                     }
                 });
             }

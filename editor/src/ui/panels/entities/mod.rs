@@ -10,22 +10,14 @@ use lightbench::world::{Entity, Name};
 
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
-use list::Rows;
+use list::{Choice, Rows};
 
 /// What the panel remembers from frame to frame.
 #[derive(Default)]
 pub struct EntitiesPanel {
     rows: Rows,
-    selected: Option<Selected>,
     /// What is wrong with the last change.
     refused: Option<String>,
-}
-
-/// The entity whose fields are shown. After a load it is found again by its name.
-struct Selected {
-    entity: Entity,
-    name: String,
-    swaps: u64,
 }
 
 /// What somebody asked for.
@@ -41,7 +33,7 @@ enum Wish {
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let mut wish = None;
     over_all(editor, ui, &mut wish);
-    let workbench = &editor.workbench;
+    let workbench = &mut editor.workbench;
     let panel = &mut editor.entities;
     let Some(scene) = workbench.scenes.scene() else {
         ui.label(RichText::new("The scene is not loaded yet.").weak());
@@ -49,20 +41,26 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     };
     let swaps = workbench.scenes.swaps();
     panel.rows.refresh(&scene.world, swaps);
-    let found = find_again(panel.selected.take(), scene, swaps);
-    panel.selected = found;
-    let shown = panel.selected.as_ref().map(|selected| selected.entity);
+    let selection = &mut workbench.selection;
+    selection.refresh(scene, swaps);
     let height = (ui.available_height() * 0.3).max(60.0);
-    if let Some(entity) = panel.rows.show(ui, scene, shown, height) {
+    if let Some((entity, how)) = panel.rows.show(ui, scene, selection, height) {
         panel.refused = None;
-        panel.selected = Some(Selected {
-            entity,
-            name: name_of(scene, entity),
-            swaps,
-        });
+        match how {
+            Choice::Only => selection.set(scene, [entity]),
+            Choice::Toggle => selection.toggle(scene, entity),
+            Choice::UpTo => selection.add(scene, panel.rows.between(selection.last(), entity)),
+        }
     }
     ui.separator();
-    let selected = panel.selected.as_ref().map(|selected| selected.entity);
+    let selected = selection.last();
+    if selection.len() > 1 {
+        let text = format!(
+            "{} entities are chosen; these are the fields of the last.",
+            selection.len()
+        );
+        ui.label(RichText::new(text).weak());
+    }
     if let Some(entity) = selected {
         heading(editor, ui, entity, &mut wish);
     }
@@ -81,28 +79,14 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The selected entity, in a scene that may have been loaded anew.
-fn find_again(
-    selected: Option<Selected>,
-    scene: &lightbench::script::Scene,
-    swaps: u64,
-) -> Option<Selected> {
-    let mut selected = selected?;
-    if selected.swaps != swaps {
-        selected.entity = scene.world.find(&selected.name)?;
-        selected.swaps = swaps;
-    }
-    scene.world.contains(selected.entity).then_some(selected)
-}
-
 fn grant(editor: &mut Editor, ui: &Ui, wish: Wish) {
     let workbench = &mut editor.workbench;
     match wish {
         Wish::Set(path, value) => {
-            let Some(selected) = &editor.entities.selected else {
+            let Some(entity) = workbench.selection.last() else {
                 return;
             };
-            let result = workbench.set_field(selected.entity, path, value);
+            let result = workbench.set_field(entity, path, value);
             editor.entities.refused = result.err();
         }
         Wish::Reset(entity, path) => workbench.reset_field(&entity, &path),
