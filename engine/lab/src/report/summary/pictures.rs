@@ -75,7 +75,7 @@ pub fn say(c: &Comparison) -> Vec<String> {
     said
 }
 
-fn picture(pipeline: &PipelineResult, reference: &PipelineResult, d: &LdrDifference) -> String {
+fn picture(pipeline: &PipelineResult, reference: &str, d: &LdrDifference) -> String {
     format!(
         "The picture of {} differs from that of {} by FLIP {} in the mean (99th percentile {}, \
          maximum {}); {} of the pixels are above {}. {}",
