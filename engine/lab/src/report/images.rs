@@ -90,9 +90,16 @@ fn files(p: &PipelineResult) -> Result<Encoded, LabError> {
     })
 }
 
+/// The pipeline whose picture the others are held as differences to: the reference, or where that is
+/// no pipeline the first with a picture.
+pub(super) fn base(c: &Comparison) -> Option<&PipelineResult> {
+    let reference = c.reference_result().filter(|p| p.picture.is_some());
+    reference.or_else(|| c.pipelines.iter().find(|p| p.picture.is_some()))
+}
+
 /// Encodes each opaque picture's difference to the reference, where that is the smaller file.
 fn deltas(c: &Comparison, encoded: &mut [Encoded]) -> Result<(), LabError> {
-    let Some(reference) = c.reference_result().and_then(|r| r.picture.as_ref()) else {
+    let Some((base, reference)) = base(c).and_then(|p| Some((p, p.picture.as_ref()?))) else {
         return Ok(());
     };
     let opaque = |image: &LdrImage| image.pixels.iter().all(|p| p[3] == 255);
@@ -102,7 +109,7 @@ fn deltas(c: &Comparison, encoded: &mut [Encoded]) -> Result<(), LabError> {
     c.pipelines
         .par_iter()
         .zip(encoded)
-        .filter(|(p, _)| p.name != c.reference)
+        .filter(|(p, _)| p.name != base.name)
         .try_for_each(|(p, encoded)| {
             let Some(picture) = p.picture.as_ref().filter(|image| opaque(image)) else {
                 return Ok(());
@@ -160,8 +167,9 @@ fn hold(points: &[&Comparison], encoded: &mut [Vec<Encoded>], mut budget: usize)
     };
     for others in [false, true] {
         for (c, encoded) in points.iter().zip(encoded.iter_mut()) {
+            let base = base(c).map(|p| p.name.as_str());
             let pipelines = c.pipelines.iter().zip(encoded);
-            for (_, e) in pipelines.filter(|(p, _)| (p.name != c.reference) == others) {
+            for (_, e) in pipelines.filter(|(p, _)| (Some(p.name.as_str()) != base) == others) {
                 e.held.picture = match &e.delta {
                     Some(_) if take(&e.delta) => Form::Delta,
                     None if take(&e.picture) => Form::Whole,

@@ -40,8 +40,9 @@ const READER: &str = r##"<script>
     seen.slider = String(shown() !== right);
     seen.share = id("view-x-value").textContent;
     await drawn(() => id("view-flip").click());
+    const first = shown();
     await drawn(() => id("view-flip").click());
-    seen.flip = String(shown() === right);
+    seen.flip = String(shown() !== first);
     await drawn(() => id("view-difference").click());
     seen.difference = id("view-status").textContent;
     await drawn(() => id("view-grid").click());

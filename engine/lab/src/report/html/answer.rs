@@ -66,6 +66,7 @@ fn facts(points: &[At], c: &Comparison) -> Vec<String> {
     });
     facts.push(format!("{}{software}", c.adapter.name));
     facts.push(c.created.clone());
+    facts.retain(|fact| !fact.is_empty());
     facts
 }
 
@@ -163,7 +164,8 @@ fn key_table(w: &mut Writer, study: &Study, points: &[At]) {
             let cut = if p.cut { " (cut short)" } else { "" };
             let mut row = vec![format!("{}{cut}", p.label())];
             if many {
-                row.push(at.words.clone());
+                // A value stays beside its name.
+                row.push(at.words.replace(" = ", "\u{A0}=\u{A0}"));
             }
             row.extend([
                 median_text(time.as_ref()),

@@ -1,7 +1,7 @@
 //! Times and memory, pass by pass and target by target.
 
 use super::answer::bytes_a_pixel;
-use super::table::{numbers, table, words};
+use super::table::{numbers, table, table_with_total, words};
 use super::writer::Writer;
 use super::{At, charts, or_dash, software_note};
 use crate::report::analysis::Analysis;
@@ -117,10 +117,9 @@ fn pass_table(w: &mut Writer, c: &Comparison, p: &PipelineResult) {
         numbers("Read"),
         numbers("Written"),
     ];
-    let mut rows: Vec<Vec<String>> = p.passes.iter().map(pass_row).collect();
-    rows.push(total_row(p));
+    let rows: Vec<Vec<String>> = p.passes.iter().map(pass_row).collect();
     let caption = format!("Passes of {}, ms a frame{}.", p.label(), software_note(c));
-    table(w, &caption, &columns, &rows);
+    table_with_total(w, &caption, &columns, &rows, &total_row(p));
     counted(w, p);
     for (why, what) in reasons(p) {
         let why = why.trim_end_matches('.');
@@ -264,7 +263,7 @@ pub fn memory_section(w: &mut Writer, at: &At) {
             numbers("Bytes a pixel"),
         ];
         for p in c.pipelines.iter().filter(|p| !p.targets.is_empty()) {
-            let mut rows: Vec<Vec<String>> = p
+            let rows: Vec<Vec<String>> = p
                 .targets
                 .iter()
                 .map(|t| {
@@ -281,8 +280,7 @@ pub fn memory_section(w: &mut Writer, at: &At) {
             let mut total = vec!["Together".to_owned()];
             total.extend([String::new(), String::new(), String::new()]);
             total.extend([bytes(p.target_bytes_total), significant(bytes_a_pixel(p, c))]);
-            rows.push(total);
-            table(w, &format!("Targets of {}.", p.label()), &columns, &rows);
+            table_with_total(w, &format!("Targets of {}.", p.label()), &columns, &rows, &total);
         }
         let reads: Vec<Vec<String>> = c.pipelines.iter().map(|p| traffic(p, pixels)).collect();
         let columns = [

@@ -5,7 +5,7 @@ use super::table::{numbers, table, words};
 use super::writer::{Writer, data_uri};
 use crate::colormap::ColorMap;
 use crate::diff::{ldr_lines, linear_lines, number};
-use crate::report::images::{Encoded, Form};
+use crate::report::images::{Encoded, Form, base};
 use crate::report::model::{Comparison, PipelineResult};
 
 /// Pictures and metrics of a point.
@@ -63,7 +63,7 @@ fn pair(w: &mut Writer, at: &At, p: &PipelineResult, image: &Encoded, index: usi
                         size: [picture.width, picture.height],
                         file: p.picture_file.as_deref(),
                         point: at.number,
-                        reference: is_reference,
+                        reference: base(c).is_some_and(|base| base.name == p.name),
                     },
                     image.held.picture,
                     match image.held.picture {
@@ -204,7 +204,7 @@ fn shot(w: &mut Writer, shot: &Shot, form: Form, png: Option<&[u8]>) {
                 w.element("noscript", &[], |w| {
                     w.element("p", &[("class", "note")], |w| {
                         w.text(
-                            "This picture is held as its difference to the reference, which the \
+                            "This picture is held as its difference to another, which the \
                                 script adds. As a file: ",
                         );
                         w.leaf("a", &[("href", file)], file);

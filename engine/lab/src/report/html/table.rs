@@ -38,6 +38,17 @@ pub fn numbers(heading: &str) -> Column {
 /// Writes a table under its caption. The first cell of a row is its heading. Wide tables scroll on
 /// a narrow screen, while the caption stays.
 pub fn table(w: &mut Writer, caption: &str, columns: &[Column], rows: &[Vec<String>]) {
+    table_with_total(w, caption, columns, rows, &[]);
+}
+
+/// Writes a table with a last row that sums up the others and stays last however they are sorted.
+pub fn table_with_total(
+    w: &mut Writer,
+    caption: &str,
+    columns: &[Column],
+    rows: &[Vec<String>],
+    total: &[String],
+) {
     w.element("figure", &[("class", "data")], |w| {
         w.leaf("figcaption", &[("class", "above")], caption);
         // A region that scrolls must be reachable with the keyboard.
@@ -53,6 +64,9 @@ pub fn table(w: &mut Writer, caption: &str, columns: &[Column], rows: &[Vec<Stri
                 w.element("tbody", &[], |w| {
                     rows.iter().for_each(|row| body_row(w, columns, row))
                 });
+                if !total.is_empty() {
+                    w.element("tfoot", &[], |w| body_row(w, columns, total));
+                }
             });
         });
     });

@@ -158,13 +158,15 @@
     const lines = mode === "grid" ? rows : 1;
     const ratio = devicePixelRatio || 1;
     const width = Math.max(Math.round(stage.clientWidth * ratio), 1);
-    const cell = [Math.floor(width / columns), Math.round((width / columns) * (first.height / first.width))];
+    const gap = mode === "grid" ? Math.round(4 * ratio) : 0;
+    const cell = [Math.floor((width - gap * (columns - 1)) / columns), 0];
+    cell[1] = Math.round(cell[0] * (first.height / first.width));
     const caption = mode === "grid" ? Math.round(20 * ratio) : 0;
     [canvas.width, canvas.height] = [width, (cell[1] + caption) * lines];
     const part = view(first, cell[0], cell[1]);
     const data = loaded.map((one) => exposed(one, stops));
     const sameSize = data.every((one) => one.width === first.width && one.height === first.height);
-    const place = (i) => [(i % columns) * cell[0], Math.floor(i / columns) * (cell[1] + caption), ...cell];
+    const place = (i) => [(i % columns) * (cell[0] + gap), Math.floor(i / columns) * (cell[1] + caption), ...cell];
     const cut = Number(slider.value) / 100;
     if (mode === "grid") {
       data.forEach((one, i) => {
@@ -194,7 +196,7 @@
     exposure.disabled = !linear;
     exposure.closest("label").title = linear ? "" : "No picture in linear light is held for these.";
     if (linear && stops !== 0) status.textContent += ` Linear light times 2^${stops}, without the tone curve.`;
-    shown = { wanted, loaded, part, columns, cell, caption, ratio };
+    shown = { wanted, loaded, part, columns, cell, gap, caption, ratio };
     viewer.dataset.drawn = String(mine);
   };
 
@@ -221,11 +223,11 @@
   const at = (event) => {
     if (!shown) return null;
     const box = canvas.getBoundingClientRect();
-    const { part, columns, cell, caption, ratio } = shown;
+    const { part, columns, cell, gap, caption, ratio } = shown;
     const [x, y] = [(event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio];
-    const column = Math.min(Math.floor(x / cell[0]), columns - 1);
+    const column = Math.min(Math.floor(x / (cell[0] + gap)), columns - 1);
     const row = Math.floor(y / (cell[1] + caption));
-    const px = Math.floor(part.x + (x - column * cell[0]) / part.scale);
+    const px = Math.floor(part.x + (x - column * (cell[0] + gap)) / part.scale);
     const py = Math.floor(part.y + (y - row * (cell[1] + caption) - caption) / part.scale);
     return { px, py, share: x / cell[0] };
   };

@@ -3,17 +3,23 @@
 use super::list;
 use crate::diff::{LdrDifference, number, percent};
 use crate::report::model::{Comparison, PipelineResult};
+use crate::study::TRACED;
 
 /// At most this many pipelines are spoken of one by one.
 const SPOKEN: usize = 4;
 
 /// The statements on pictures.
 pub fn say(c: &Comparison) -> Vec<String> {
-    let Some(reference) = c.reference_result() else {
-        return vec![format!(
-            "The reference {} was not measured, so no pictures are compared.",
-            c.reference
-        )];
+    let compared = c.pipelines.iter().any(|p| p.difference.is_some());
+    let reference = match c.reference_result() {
+        Some(reference) => reference.label(),
+        None if c.reference == TRACED && compared => "the path tracer",
+        None => {
+            return vec![format!(
+                "The reference {} was not measured, so no pictures are compared.",
+                c.reference
+            )];
+        }
     };
     let others: Vec<&PipelineResult> = c
         .pipelines
@@ -42,7 +48,7 @@ pub fn say(c: &Comparison) -> Vec<String> {
         said.push(format!(
             "The {noun} of {} {verb} that of {} in every pixel.",
             list(&equal),
-            reference.label()
+            reference
         ));
     }
     if !unknown.is_empty() {
@@ -61,7 +67,7 @@ pub fn say(c: &Comparison) -> Vec<String> {
         said.push(format!(
             "{} pictures differ from that of {}; the least and the most different are these.",
             differing.len(),
-            reference.label()
+            reference
         ));
         differing = ends.to_vec();
     }
@@ -69,12 +75,12 @@ pub fn say(c: &Comparison) -> Vec<String> {
     said
 }
 
-fn picture(pipeline: &PipelineResult, reference: &PipelineResult, d: &LdrDifference) -> String {
+fn picture(pipeline: &PipelineResult, reference: &str, d: &LdrDifference) -> String {
     format!(
         "The picture of {} differs from that of {} by FLIP {} in the mean (99th percentile {}, \
          maximum {}); {} of the pixels are above {}. {}",
         pipeline.label(),
-        reference.label(),
+        reference,
         number(d.flip.mean),
         number(d.flip.p99),
         number(d.flip.max),
