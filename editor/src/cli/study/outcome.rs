@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lightbench::lab::report::analysis::{Analysis, of_study, samples};
 use lightbench::lab::report::format::{bytes, milliseconds};
-use lightbench::lab::report::summary::{clock_name, summarize};
+use lightbench::lab::report::summary::{clock_name, summarize_study};
 use lightbench::lab::report::{Comparison, write_study};
 use lightbench::lab::statistics::Summary;
 use lightbench::lab::study::{Planned, Store, Study, load_linear};
@@ -30,14 +30,14 @@ pub fn write(
 /// The summary and a small table for each point.
 fn print(study: &Study) -> anyhow::Result<()> {
     let analyses = of_study(study);
+    for statement in summarize_study(study, &analyses) {
+        say(statement.text)?;
+    }
     for (point, analysis) in study.points.iter().zip(&analyses) {
-        if study.points.len() > 1 {
-            say(format!("--- {}", point.key))?;
-        }
-        for statement in summarize(&point.comparison, analysis) {
-            say(statement.text)?;
-        }
         say("")?;
+        if study.points.len() > 1 {
+            say(&point.key)?;
+        }
         table(&point.comparison, analysis)?;
     }
     Ok(())

@@ -118,6 +118,7 @@ pub fn pipeline(name: &str, title: &str, gpu: f64, picture: LdrImage) -> Pipelin
             vec![]
         },
         frame_cpu_ms: series(gpu * 0.05, 0.05, 60),
+        process_frames: vec![12; 5],
         frame_gpu_ms: Some(series(gpu, gpu * 0.05, 60)),
         systems: ["script", "world matrices", "extraction"]
             .into_iter()
@@ -198,13 +199,13 @@ pub fn study(lights: &[u32], times: impl Fn(f64) -> [f64; 2]) -> Study {
         let mut c = comparison();
         for (p, time) in c.pipelines.iter_mut().zip([deferred, forward]) {
             let fresh = pipeline(&p.name, &p.title, time, picture(2, 2, 0.0, 0.0));
-            p.frame_gpu_ms = Some((0..3).flat_map(|_| series(time, time * 0.03, 20)).collect());
+            p.frame_gpu_ms = Some((0..5).flat_map(|_| series(time, time * 0.03, 12)).collect());
             p.frame_cpu_ms = fresh.frame_cpu_ms;
             p.passes = fresh.passes;
-            p.process_frames = vec![20; 3];
-            p.settled_after = vec![4; 3];
+            p.process_frames = vec![12; 5];
+            p.settled_after = vec![4; 5];
         }
-        c.processes = (0..3)
+        c.processes = (0..5)
             .map(|index| ProcessRecord {
                 index,
                 started: "2026-11-22T10:30:00Z".into(),

@@ -205,7 +205,7 @@ fn speed_cells(ratio: Option<Ratio>) -> [String; 2] {
         Verdict::Same => "the same within 5 %",
         Verdict::Undecided => "undecided",
         Verdict::TooFew if ratio.speed.is_nan() => "no times",
-        Verdict::TooFew => "too few frames",
+        Verdict::TooFew => "too few processes",
     };
     let speed = match ratio.interval {
         _ if ratio.speed.is_nan() => "–".into(),

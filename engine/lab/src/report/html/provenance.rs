@@ -121,19 +121,18 @@ pub fn reading_section(w: &mut Writer, points: &[At], analysis: &Analysis) {
                  out as an outlier."
             ),
             format!(
-                "Speed is the quotient of two medians: 2 means twice as fast. Its interval is a \
-                 circular block bootstrap over runs of consecutive frames with a fixed seed, each \
-                 at {level} %, so that all pairs of pipelines hold together at {confidence:.0} % \
-                 (Bonferroni)."
+                "Speed is the quotient of two medians: 2 means twice as fast. Each process measures all \
+                 pipelines in turn and gives one quotient; their geometric mean is reported. Its interval is \
+                 Student's, of their logarithms, at up to {level} %, so that all pairs of pipelines at all \
+                 points hold together at {confidence:.0} % (Holm 1979)."
             ),
             format!(
                 "A pipeline is called faster or slower only if that interval lies wholly outside \
-                 {lower:.3} to {upper:.2} and the intervals of the two medians do not overlap. The \
-                 same within {margin:.0} % means that the interval lies wholly inside. All else is \
-                 undecided."
+                 {lower:.3} to {upper:.2}. The same within {margin:.0} % means that the interval lies wholly \
+                 inside. All else is undecided, also where fewer than five processes measured."
             ),
-            "The intervals cover the variation from frame to frame within this run. They do not \
-             cover what changes from one start of the program to the next."
+            "The intervals cover what changes from one start of the program to the next. They do not cover \
+             another machine or driver."
                 .to_owned(),
             "GPU time is measured with timestamps around the frame and around each pass; the passes \
              need not add up to the frame. CPU time is the time for recording and submitting. \

@@ -145,7 +145,7 @@ impl Words<'_> {
         if !too_few.is_empty() {
             let names = self.labels(&too_few);
             said.push(format!(
-                "too few frames were measured for a comparison with {names} (six are the least)"
+                "too few processes measured for a comparison with {names} (five are the least)"
             ));
         }
         let mut text = said.join("; ");
