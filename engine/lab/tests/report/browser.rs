@@ -18,7 +18,7 @@ pub fn open(page: &Path) -> Option<(String, String)> {
                 "--no-sandbox",
                 "--no-first-run",
                 "--enable-logging=stderr",
-                "--virtual-time-budget=60000",
+                "--virtual-time-budget=600000",
                 "--window-size=1280,900",
             ])
             .arg(format!("--user-data-dir={}", profile.path().display()))

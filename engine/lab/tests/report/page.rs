@@ -69,7 +69,7 @@ const READER: &str = r##"<script>
     seen.points = [...document.querySelectorAll(".at")].filter((at) => getComputedStyle(at).display !== "none")
       .map((at) => at.id).join(" ");
     const delta = document.querySelector("canvas.shot[data-point='3']");
-    for (let i = 0; i < 400 && delta && delta.dataset.filled !== "true"; i++) await wait(25);
+    for (let i = 0; i < 8000 && delta && delta.dataset.filled !== "true"; i++) await wait(25);
     if (delta) {
       const rgb = pixels(delta);
       seen.delta = `${delta.id} ${[...rgb.slice(4 * 12345, 4 * 12345 + 3)].join(" ")}`;

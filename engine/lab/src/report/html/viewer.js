@@ -79,8 +79,8 @@
   };
 
   // Canvases fill themselves in: pictures that are held as differences.
-  const fill = async () => {
-    for (const shot of shots.filter((shot) => shot.dataset.delta)) {
+  const fill = async (some) => {
+    for (const shot of some.filter((shot) => shot.dataset.delta && !shot.dataset.filled)) {
       const { picture } = await load(shot);
       [shot.width, shot.height] = [picture.width, picture.height];
       shot.getContext("2d").putImageData(picture, 0, 0);
@@ -303,12 +303,13 @@
   for (const input of [slider, gain, exposure]) input.addEventListener("input", values);
   for (const select of [left, right, zoom]) select.addEventListener("change", () => draw());
   for (const name of ["split", "flip", "difference", "grid"]) id(`view-${name}`).addEventListener("click", () => press(name));
-  document.addEventListener("point", () => { list(); draw(); });
+  document.addEventListener("point", () => { list(); draw(); fill(here()); });
   addEventListener("resize", () => draw());
 
   viewer.hidden = false;
   list();
   press("split");
   values();
-  fill();
+  // Those that are seen first.
+  fill(here()).then(() => fill(shots));
 })();
