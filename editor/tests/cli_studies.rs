@@ -453,3 +453,44 @@ fn a_mistake_in_one_point_keeps_the_others() {
     });
     assert_eq!(json.count(), 1);
 }
+
+/// The lines for GNU parallel in the documentation, run as they stand. Where it is not installed, a
+/// few lines of shell stand in for it: they run the same commands, one after another.
+#[cfg(unix)]
+#[test]
+fn the_example_of_gnu_parallel_works() {
+    let page = include_str!("../../engine/lab/docs/studies.md");
+    let line = |start: &str| page.lines().find(|line| line.starts_with(start)).unwrap();
+    let share = line("parallel --jobs 1 lightbench");
+    let merge = line("lightbench merge shares/1 shares/2");
+    let program = Path::new(env!("CARGO_BIN_EXE_lightbench"));
+    let more = STUDY[1..].join(" ");
+    let stand_in = r#"
+        if ! parallel --version 2>/dev/null | grep -q GNU; then
+            parallel() {
+                shift 2
+                command=
+                while [ "$1" != ::: ]; do command="$command $1"; shift; done
+                shift
+                for value in "$@"; do eval "$(echo "$command" | sed "s/{}/$value/g")" || return 1; done
+            }
+        fi
+    "#;
+    let project = Project::new();
+    let script = format!(
+        "set -e\nPATH={}:$PATH\n{stand_in}\n{}\n{merge}\n",
+        program.parent().unwrap().display(),
+        share.replace("compare ", &format!("compare {more} "))
+    );
+    let ran = Command::new("bash")
+        .current_dir(project.path())
+        .args(["-c", &script])
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+    assert!(ran.status.success(), "{script}\n{said}");
+    let report = json(&project.file("report/report.json"));
+    assert_eq!(report["points"].as_array().unwrap().len(), 2);
+    assert_eq!(report["missing"], Value::Array(Vec::new()));
+}

@@ -231,3 +231,90 @@ fn every_shipped_scene_is_written() {
         assert!(written.exported.files > 0, "{scene}");
     }
 }
+
+/// Renders an exported scene with the Python package `mitsuba` and prints the means of its channels.
+const RENDER: &str = r#"
+import sys
+import mitsuba as mi
+import numpy
+mi.set_variant("scalar_rgb")
+picture = numpy.array(mi.render(mi.load_file(sys.argv[1]), spp=int(sys.argv[2])))
+print(*[picture[:, :, channel].mean() for channel in range(3)])
+"#;
+
+/// The means that Mitsuba 3.9.1 gave with 2,048 samples a pixel.
+const MITSUBA_MEANS: [f64; 3] = [0.852_50, 0.556_19, 0.131_99];
+
+/// The Python that has the package: what `LIGHTBENCH_PYTHON` names, or the system's.
+fn python_with_mitsuba() -> Option<std::ffi::OsString> {
+    let named = std::env::var_os("LIGHTBENCH_PYTHON");
+    let python = named.unwrap_or_else(|| "python3".into());
+    let asked = std::process::Command::new(&python)
+        .args(["-c", "import mitsuba, numpy"])
+        .output();
+    asked
+        .is_ok_and(|asked| asked.status.success())
+        .then_some(python)
+}
+
+/// A renderer that nobody here wrote agrees with the path tracer on the Cornell box. Where the Python
+/// package is not installed, the tracer alone is held to what Mitsuba 3.9.1 gave on another machine.
+#[test]
+fn mitsuba_renders_what_the_path_tracer_traces() {
+    use lightbench::lab::tracer::{Options, TracedScene, trace};
+
+    let (size, samples) = ((64, 36), 1024);
+    let settings = settings(&["lamps=1"]);
+    let files = Files::shipped();
+    let loaded = load_scene(&files, "cornell_box", &settings, &Progress::new());
+    let mut scene = loaded.unwrap_or_else(|e| panic!("{e}"));
+    scene.refresh();
+    let view = View::from_world(&scene.world).unwrap();
+    let options = Options {
+        size,
+        samples,
+        ..Options::default()
+    };
+    let traced = TracedScene::new(&scene.world, &scene.assets);
+    let traced = trace(&traced, &view, &options, &Progress::new()).unwrap();
+    let count = traced.picture.pixels.len() as f64;
+    let mean = |channel: usize, of: &lightbench::lab::HdrImage| {
+        of.pixels.iter().map(|p| f64::from(p[channel])).sum::<f64>() / count
+    };
+    let ours = [0, 1, 2].map(|channel| mean(channel, &traced.picture));
+    let theirs = match python_with_mitsuba() {
+        Some(python) => {
+            let folder = tempfile::tempdir().unwrap();
+            let exported = export(&scene.world, &scene.assets, &view, size, folder.path()).unwrap();
+            let script = folder.path().join("render.py");
+            std::fs::write(&script, RENDER).unwrap();
+            let ran = std::process::Command::new(python)
+                .arg(&script)
+                .arg(exported.scene)
+                .arg(samples.to_string())
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&ran.stdout).into_owned();
+            assert!(
+                ran.status.success(),
+                "{}",
+                String::from_utf8_lossy(&ran.stderr)
+            );
+            let means: Vec<f64> = said
+                .split_whitespace()
+                .map(|n| n.parse().unwrap())
+                .collect();
+            [means[0], means[1], means[2]]
+        }
+        None => MITSUBA_MEANS,
+    };
+    println!("traced {ours:?}, Mitsuba {theirs:?}");
+    for channel in 0..3 {
+        // The mean of each has some 0.2 % of noise at this size.
+        let ratio = ours[channel] / theirs[channel];
+        assert!(
+            (ratio - 1.0).abs() < 0.01,
+            "channel {channel}: {ours:?} {theirs:?}"
+        );
+    }
+}

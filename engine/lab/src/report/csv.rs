@@ -74,8 +74,11 @@ pub(crate) fn of_study(study: &Study, table: fn(&Comparison) -> Table) -> String
     all.text()
 }
 
+/// Makes a table of one comparison.
+pub(crate) type MakeTable = fn(&Comparison) -> Table;
+
 /// The tables of a report with their files' names.
-pub(crate) const TABLES: [(&str, fn(&Comparison) -> Table); 6] = [
+pub(crate) const TABLES: [(&str, MakeTable); 6] = [
     ("pipelines.csv", pipelines),
     ("systems.csv", systems),
     ("passes.csv", passes),
@@ -353,9 +356,9 @@ mod tests {
             lines.next(),
             Some("point,at_scene,at_lights,pipeline,process,frame,gpu_ms,cpu_ms,wall_ms")
         );
-        // Two points, two pipelines, three processes, twenty frames.
-        assert_eq!(lines.clone().count(), 2 * 2 * 3 * 20);
-        let second = lines.nth(20).unwrap();
+        // Two points, two pipelines, five processes, twelve frames.
+        assert_eq!(lines.clone().count(), 2 * 2 * 5 * 12);
+        let second = lines.nth(12).unwrap();
         assert!(
             second.starts_with("\"scene=atrium,lights=16\",atrium,16,deferred_shading,1,0,"),
             "{second}"

@@ -183,7 +183,9 @@ fn hold(points: &[&Comparison], encoded: &mut [Vec<Encoded>], mut budget: usize)
         .flatten()
         .for_each(|e| e.held.heat_map = take(&e.heat_map));
     for e in encoded.iter_mut().flatten() {
-        e.held.views = !e.views.is_empty() && e.views.iter().fold(true, |all, v| take(v) && all);
+        // Each is taken, whether or not one before it was.
+        let taken = e.views.iter().filter(|view| take(view)).count();
+        e.held.views = taken > 0 && taken == e.views.len();
     }
     for e in encoded.iter_mut() {
         e.iter_mut().for_each(|e| e.held.linear = take(&e.linear));
@@ -214,9 +216,9 @@ mod tests {
         let bytes = halves(&image);
         assert_eq!((bytes.width, bytes.height), (3, 4));
         for (i, pixel) in image.pixels.iter().enumerate() {
-            for c in 0..3 {
+            for (c, value) in pixel.iter().enumerate().take(3) {
                 let bits = [bytes.pixels[i][c], bytes.pixels[6 + i][c]];
-                assert_eq!(f16::from_be_bytes(bits), f16::from_f32(pixel[c]));
+                assert_eq!(f16::from_be_bytes(bits), f16::from_f32(*value));
             }
         }
     }

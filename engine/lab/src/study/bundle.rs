@@ -299,7 +299,8 @@ mod tests {
     fn hostile_and_broken_archives_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let bundle = folder.path().join("b.tar.gz");
-        let write = |build: &dyn Fn(&mut tar::Builder<GzEncoder<Vec<u8>>>)| {
+        type Archive = tar::Builder<GzEncoder<Vec<u8>>>;
+        let write = |build: &dyn Fn(&mut Archive)| {
             let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::fast()));
             build(&mut archive);
             fs::write(&bundle, archive.into_inner().unwrap().finish().unwrap()).unwrap();

@@ -180,7 +180,7 @@ fn stale(part: &Part, files: &Files) -> Vec<String> {
     inputs
         .filter(|input| {
             let now = files.read(&input.path).ok();
-            let now = now.or_else(|| std::fs::read(&input.path).ok().map(Into::into));
+            let now = now.or_else(|| std::fs::read(&input.path).ok());
             now.is_none_or(|bytes| Digest::of(&bytes).to_string() != input.hash)
         })
         .map(|input| input.path.clone())

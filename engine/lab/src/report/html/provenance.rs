@@ -1,5 +1,7 @@
 //! How to run it again, on what it ran, and how to read the numbers.
 
+use lightbench_assets::Digest;
+
 use super::table::{facts, numbers, table, words};
 use super::writer::Writer;
 use super::{At, or_dash};
@@ -9,6 +11,38 @@ use crate::report::format::{bytes, significant};
 use crate::report::model::Comparison;
 use crate::statistics::CONFIDENCE;
 use crate::study::Study;
+
+/// A BibTeX entry of the report. What it was made from is in one number: the SHA-256 of the list of
+/// all inputs' hashes, so that two reports with the same inputs have the same.
+fn bibtex(study: &Study, c: &Comparison) -> String {
+    let mut inputs: Vec<&str> = study
+        .points
+        .iter()
+        .flat_map(|point| &point.comparison.inputs)
+        .map(|input| input.hash.as_str())
+        .collect();
+    inputs.sort_unstable();
+    inputs.dedup();
+    let digest = Digest::of(inputs.join("\n").as_bytes()).to_string();
+    let year = c.created.get(..4).unwrap_or_default();
+    // Braces and backslashes mean something to BibTeX.
+    let plain = |text: &str| text.replace(['{', '}', '\\'], "");
+    format!(
+        "@misc{{lightbench-{},\n  title = {{{}}},\n  author = {{{{The Lightbench authors}}}},\n  year = {{{year}}},\n  \
+         howpublished = {{Report of Lightbench {}}},\n  note = {{Measured {} on {} with {} {}. Inputs: SHA-256 {digest}}},\n}}",
+        &digest[..8],
+        plain(if study.plan.title.is_empty() {
+            &c.title
+        } else {
+            &study.plan.title
+        }),
+        c.program_version,
+        c.created,
+        plain(&c.machine.cpu),
+        plain(&c.adapter.name),
+        plain(&c.adapter.driver_info),
+    )
+}
 
 /// Command, versions, machine, settings and inputs.
 pub fn run_again_section(w: &mut Writer, study: &Study, c: &Comparison) {
@@ -25,6 +59,10 @@ pub fn run_again_section(w: &mut Writer, study: &Study, c: &Comparison) {
         let text = "Pictures and counts come out the same on the same driver. Times depend on the \
                     machine and its load.";
         w.leaf("p", &[("class", "note")], text);
+        w.leaf("h3", &[], "How to cite it");
+        w.element("pre", &[("tabindex", "0"), ("aria-label", "BibTeX entry")], |w| {
+            w.leaf("code", &[], &bibtex(study, c));
+        });
         w.leaf("h3", &[], "Machine");
         let a = &c.adapter;
         let kind = if a.software { format!("{}, a software driver", a.kind) } else { a.kind.clone() };
