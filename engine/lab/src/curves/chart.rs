@@ -17,6 +17,8 @@ const BOTTOM: f64 = 420.0;
 const HEIGHT: f64 = 480.0;
 /// From one line of the legend to the next.
 const ROW: f64 = 22.0;
+/// Width of a character of the legend: more than most have in any sans serif.
+const CHARACTER: f64 = 8.0;
 /// Points beyond which their marks would hide the curve.
 const MOST_MARKS: usize = 40;
 
@@ -59,7 +61,7 @@ pub fn chart(chart: &Chart) -> String {
     let y = Scale::holding(log_y, values.chain(ends().flatten().copied()), BOTTOM, TOP);
 
     let legend = TOP + ROW * chart.curves.len() as f64;
-    sheet([WIDTH, HEIGHT.max(legend + ROW)], |w| {
+    sheet([width(chart), HEIGHT.max(legend + ROW)], |w| {
         text(w, [LEFT, 28.0], 18, "start", &chart.title);
         axes(w, chart, &x, &y);
         for (index, curve) in chart.curves.iter().enumerate() {
@@ -71,6 +73,15 @@ pub fn chart(chart: &Chart) -> String {
             text(w, [RIGHT + 70.0, at + 5.0], 14, "start", &curve.name);
         }
     })
+}
+
+/// Wide enough for the longest name beside the curves, and for the title over them.
+fn width(chart: &Chart) -> f64 {
+    let characters = |text: &str| text.chars().count() as f64;
+    let names = chart.curves.iter().map(|curve| characters(&curve.name));
+    let names = RIGHT + 80.0 + CHARACTER * names.fold(0.0, f64::max);
+    let title = LEFT + 10.0 + CHARACTER * 18.0 / 14.0 * characters(&chart.title);
+    WIDTH.max(names).max(title)
 }
 
 fn axes(w: &mut Writer, chart: &Chart, x: &Scale, y: &Scale) {
@@ -153,6 +164,25 @@ mod tests {
             Some([numbers.next()?, numbers.next()?])
         };
         path.split('L').filter_map(pair).collect()
+    }
+
+    #[test]
+    fn long_names_and_titles_have_room() {
+        let named = |name: &str, title: &str| {
+            let curve = ChartCurve {
+                name: name.to_owned(),
+                ..ChartCurve::default()
+            };
+            width(&Chart {
+                title: title.to_owned(),
+                curves: vec![curve],
+                ..Chart::default()
+            })
+        };
+        assert_eq!(named("short", "short"), WIDTH);
+        // 31 characters, which browsers draw some 220 units wide.
+        assert!(named("World-space light-indexed forward", "") > RIGHT + 70.0 + 240.0);
+        assert!(named("", &"a".repeat(120)) > 1200.0);
     }
 
     #[test]
