@@ -213,6 +213,65 @@ fn the_path_tracer_can_be_the_reference() {
     assert!(pipelines[1]["linear_difference"]["rmse"].as_f64().unwrap() > 0.0);
 }
 
+/// Each pipeline is measured with the fastest of the values that it declares, and the report says which.
+#[test]
+fn tuning_chooses_declared_values_and_keeps_the_picture() {
+    let project = Project::new();
+    let arguments = [
+        "compare",
+        "tiny",
+        "--pipelines",
+        "tiled_deferred,deferred_shading",
+        "--size",
+        "48x27",
+        "--frames",
+        "1",
+        "--processes",
+        "1",
+        "--out",
+        "r",
+    ];
+    let tuned = project
+        .run(&[&arguments[..], &["--tune"]].concat())
+        .succeeded();
+    // Three sides of a tile with and without a mask; volumes or not, with three uses of the stencil.
+    assert!(
+        tuned.stderr.contains("tuning: 12 variants of 2 pipelines"),
+        "{}",
+        tuned.all()
+    );
+    let report = json(&project.file("r/report.json"));
+    let chosen = report["plan"]["tuned"].as_array().unwrap();
+    let names = |entry: &Value| -> Vec<String> {
+        let settings = entry["settings"].as_array().unwrap().iter();
+        settings
+            .map(|s| s["name"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(names(&chosen[0]), ["tile_size", "depth_mask"]);
+    assert_eq!(names(&chosen[1]), ["light_volumes", "volume_stencil"]);
+    let pipelines = report["points"][0]["comparison"]["pipelines"].clone();
+    for (pipeline, chosen) in pipelines.as_array().unwrap().iter().zip(chosen) {
+        for setting in chosen["settings"].as_array().unwrap() {
+            let parameters = pipeline["parameters"].as_array().unwrap();
+            assert!(parameters.contains(setting), "{setting} {parameters:?}");
+        }
+    }
+    let as_tuned = fixed(&project.file("r"));
+    project
+        .run(&[&arguments[..], &["--restart"]].concat())
+        .succeeded();
+    let picture = |of: &BTreeMap<String, String>, name: &str| {
+        let text = of.iter().find(|(key, _)| key.ends_with(name)).unwrap().1;
+        text.split(']').next().unwrap().to_owned()
+    };
+    let plain = fixed(&project.file("r"));
+    assert_eq!(
+        picture(&as_tuned, "tiled_deferred"),
+        picture(&plain, "tiled_deferred")
+    );
+}
+
 #[test]
 fn another_study_is_not_replaced_unasked_and_changed_files_are_measured_again() {
     let project = Project::new();

@@ -1,6 +1,6 @@
 //! Orthographic views along the world's axes.
 //!
-//! Pipelines draw through perspective cameras. One that is [`HEIGHTS`] picture heights away, with a
+//! Pipelines draw through perspective cameras. One that is `HEIGHTS` picture heights away, with a
 //! lens as narrow, shows what is a tenth of the picture's height nearer by a ten thousandth larger:
 //! less than a tenth of a pixel in a picture of a thousand.
 
