@@ -262,7 +262,7 @@ fn tuning_chooses_declared_values_and_keeps_the_picture() {
         .run(&[&arguments[..], &["--restart"]].concat())
         .succeeded();
     let picture = |of: &BTreeMap<String, String>, name: &str| {
-        let text = of.iter().find(|(key, _)| key.ends_with(name)).unwrap().1;
+        let text = of.iter().find(|(key, _)| key.contains(name)).unwrap().1;
         text.split(']').next().unwrap().to_owned()
     };
     let plain = fixed(&project.file("r"));
