@@ -398,3 +398,63 @@ fn what_is_typed_into_a_field_is_one_step_and_escape_leaves_the_field_alone() {
     key(&mut bench, Key::Escape, Modifiers::NONE);
     assert_eq!(bench.harness.state().workbench.selection.len(), 0);
 }
+
+#[test]
+fn parameters_of_scene_and_behaviours_are_taken_back_also_after_a_load() {
+    let mut bench = open();
+    bench.save(
+        "scripts/scenes/set.rhai",
+        "const HIGH = param(\"high\", 1.0, 0, 9, \"How high\");
+         spawn(\"top\").mesh(box(1)).at(0, HIGH, 0).behave(\"spin\");",
+    );
+    bench.harness.state_mut().workbench.select_scene("set");
+    let settled = |bench: &mut Bench, high: f32| {
+        bench.until("the scene", |editor| {
+            assert!(!Bench::has_problems(editor));
+            let scenes = &editor.workbench.scenes;
+            let place = scenes.scene().and_then(|scene| {
+                let top = scene.world.find("top")?;
+                Some(scene.world.get::<Transform>(top)?.translation.y)
+            });
+            !scenes.is_busy() && place == Some(high)
+        });
+    };
+    settled(&mut bench, 1.0);
+    bench.harness.state_mut().workbench.stop();
+    let behaviour = |bench: &Bench| {
+        let scene = bench.harness.state().workbench.scenes.scene().unwrap();
+        let behaviour = scene.behaviours().remove(0);
+        let parameter = behaviour.parameters[0].clone();
+        (behaviour.entity, parameter.name, parameter.value)
+    };
+    let (entity, name, before) = behaviour(&bench);
+    let after = lightbench::script::SettingValue::from(12.5);
+    let workbench = &mut bench.harness.state_mut().workbench;
+    workbench.set_behaviour_parameter(entity, &name, &after);
+    bench.harness.run_steps(2);
+    assert_eq!(behaviour(&bench).2, after);
+    let workbench = &mut bench.harness.state_mut().workbench;
+    workbench.set_scene_parameter("high", Some(3.0.into()));
+    settled(&mut bench, 3.0);
+    let what = "the parameter high".to_owned();
+    assert_eq!(steps(&bench), [name, what]);
+
+    key(&mut bench, Key::Z, Modifiers::COMMAND);
+    settled(&mut bench, 1.0);
+    // The load made the entity anew: it is found by its name.
+    let made = behaviour(&bench).2;
+    key(&mut bench, Key::Z, Modifiers::COMMAND | Modifiers::SHIFT);
+    settled(&mut bench, 3.0);
+    key(&mut bench, Key::Z, Modifiers::COMMAND);
+    settled(&mut bench, 1.0);
+    assert_eq!(behaviour(&bench).2, made);
+    let (entity, name, _) = behaviour(&bench);
+    let workbench = &mut bench.harness.state_mut().workbench;
+    workbench.set_behaviour_parameter(entity, &name, &after);
+    bench.harness.run_steps(2);
+    key(&mut bench, Key::Z, Modifiers::COMMAND);
+    assert_eq!(behaviour(&bench).2, made);
+    key(&mut bench, Key::Z, Modifiers::COMMAND);
+    assert_eq!(behaviour(&bench).2, before);
+    assert!(steps(&bench).is_empty());
+}

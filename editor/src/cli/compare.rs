@@ -1,6 +1,6 @@
 //! `lightbench compare`: pipelines measured on scenes, at one point or many.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lightbench::assets::files::Files;
@@ -54,7 +54,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Anything that keeps the report from being made.
-pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
+pub fn run(arguments: &Arguments, mut files: Files, limits: Option<&Path>) -> anyhow::Result<()> {
     project::writable(&arguments.out.join("report.html"))?;
     if let Some(old) = &arguments.against {
         // Read before anything is measured.
@@ -73,6 +73,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     let run = Run {
         files: &files,
         gpu: &arguments.plan.gpu,
+        limits,
         command_line: &command_line,
     };
     let points = share(plan.points()?, arguments.shard);
@@ -86,7 +87,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         return Ok(());
     }
     let Ran { mut study, stopped } = run.measure(&store, &plan, &points)?;
-    outcome::write(&mut study, &store, &points, &arguments.out)?;
+    outcome::write(&mut study, &arguments.out)?;
     if stopped {
         return Err(Stopped.into());
     }

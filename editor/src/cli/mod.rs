@@ -150,16 +150,17 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
     }
     let project = arguments.project.as_deref();
     let files = || project::open(project);
+    let limits = arguments.limits.as_deref();
     match arguments.command {
         Command::Edit(arguments) => edit::run(&arguments, files()?),
         Command::Render(arguments) => render::run(&arguments, files()?),
         Command::Trace(arguments) => trace::run(&arguments, files()?),
         Command::Inspect(arguments) => inspect::run(&arguments, files()?),
-        Command::Run(arguments) => run::run(&arguments, files()?),
-        Command::Compare(arguments) => compare::run(&arguments, files()?),
+        Command::Run(arguments) => run::run(&arguments, files()?, limits),
+        Command::Compare(arguments) => compare::run(&arguments, files()?, limits),
         Command::Merge(arguments) => study::merge::run(&arguments),
         Command::Bundle(arguments) => study::bundle::bundle(&arguments, files()?),
-        Command::Reproduce(arguments) => study::bundle::reproduce(&arguments),
+        Command::Reproduce(arguments) => study::bundle::reproduce(&arguments, limits),
         Command::StudyWorker(arguments) => study::worker::run(&arguments, files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),

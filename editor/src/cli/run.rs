@@ -1,5 +1,6 @@
 //! `lightbench run`: an experiment, a script that looks into frames.
 
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
@@ -42,7 +43,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// What is wrong in the experiment or went wrong in it, or Ctrl-C.
-pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
+pub fn run(arguments: &Arguments, mut files: Files, limits: Option<&Path>) -> anyhow::Result<()> {
     let mut settings = Settings::new();
     for text in &arguments.set {
         let set = settings.set_from_text(text);
@@ -75,7 +76,7 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
             stop.cancel();
         }
     };
-    let launch = launcher(&files, &arguments.gpu, &this_command())?;
+    let launch = launcher(&files, &arguments.gpu, limits, &this_command())?;
     let laboratory = Box::new(workbench.with_studies(launch));
     let result = run_experiment(&files, &path, &settings, laboratory, print, &progress);
     if let Some(error) = unsaid.lock().unwrap_or_else(PoisonError::into_inner).take() {

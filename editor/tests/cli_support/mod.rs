@@ -1,6 +1,8 @@
 //! Running the program as a user does, from a folder of its own.
 #![allow(clippy::unwrap_used, dead_code)] // Each test file uses a part of this.
 
+pub mod studies;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

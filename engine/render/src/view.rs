@@ -1,7 +1,7 @@
 //! The camera of a frame as matrices.
 
 use glam::{Mat4, Vec3, Vec4};
-use lightbench_world::{Camera, World, WorldMatrix};
+use lightbench_world::{Camera, Entity, World, WorldMatrix};
 
 /// A perspective camera in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,28 +30,31 @@ impl View {
     /// The first active camera of a world whose matrices are up to date.
     pub fn from_world(world: &World) -> Option<Self> {
         let cameras = world.columns::<Camera>();
-        cameras
-            .entities()
-            .iter()
-            .enumerate()
-            .find_map(|(row, entity)| {
-                let camera = cameras.row(row);
-                let matrix = world.get::<WorldMatrix>(*entity)?.matrix;
-                // Scale has no meaning for a camera: only its axes and position count.
-                let axis = |axis: glam::Vec3A| Vec3::from(axis).normalize_or_zero();
-                let m = matrix.matrix3;
-                let (x, y, z) = (axis(m.x_axis), axis(m.y_axis), axis(m.z_axis));
-                let t = Vec3::from(matrix.translation);
-                let to_world =
-                    Mat4::from_cols(x.extend(0.0), y.extend(0.0), z.extend(0.0), t.extend(1.0));
-                let usable = camera.active && to_world.determinant().abs() > 1e-3;
-                usable.then(|| Self {
-                    view: to_world.inverse(),
-                    fov_y: camera.fov_y,
-                    near: camera.near,
-                    far: camera.far,
-                })
-            })
+        let active = |entity: &&Entity| {
+            let camera = cameras.get(**entity);
+            camera.is_some_and(|camera| camera.active)
+        };
+        let mut active = cameras.entities().iter().filter(active);
+        active.find_map(|entity| Self::from_camera(world, *entity))
+    }
+
+    /// What a camera of a world sees, whether it is active or not; `None` where the entity is none, or
+    /// its axes lie in a plane.
+    pub fn from_camera(world: &World, entity: Entity) -> Option<Self> {
+        let camera: Camera = world.get(entity)?;
+        let matrix = world.get::<WorldMatrix>(entity)?.matrix;
+        // Scale has no meaning for a camera: only its axes and position count.
+        let axis = |axis: glam::Vec3A| Vec3::from(axis).normalize_or_zero();
+        let m = matrix.matrix3;
+        let (x, y, z) = (axis(m.x_axis), axis(m.y_axis), axis(m.z_axis));
+        let t = Vec3::from(matrix.translation);
+        let to_world = Mat4::from_cols(x.extend(0.0), y.extend(0.0), z.extend(0.0), t.extend(1.0));
+        (to_world.determinant().abs() > 1e-3).then(|| Self {
+            view: to_world.inverse(),
+            fov_y: camera.fov_y,
+            near: camera.near,
+            far: camera.far,
+        })
     }
 
     /// View to clip with reversed depth: 1 at `near`, 0 at `far`.

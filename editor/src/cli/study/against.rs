@@ -7,7 +7,9 @@ use lightbench::lab::report::format::significant;
 use lightbench::lab::report::read_json;
 use lightbench::lab::statistics::Interval;
 use lightbench::lab::study::Study;
-use lightbench::lab::study::history::{Change, Changes, PictureChange, TimeChange, Told, changes};
+use lightbench::lab::study::history::{
+    Change, Changes, PictureChange, Reported, TimeChange, changes,
+};
 
 use crate::cli::report::{note, say};
 
@@ -20,8 +22,8 @@ pub fn compare(study: &Study, folder: &Path, old: &Path) -> anyhow::Result<bool>
     let before = read_json(old)?;
     let old_folder = old.parent().context("the old report has no folder")?;
     let found = changes(
-        Told { study, folder },
-        Told {
+        Reported { study, folder },
+        Reported {
             study: &before,
             folder: old_folder,
         },

@@ -7,7 +7,7 @@ use clap::Args;
 use lightbench::assets::files::Files;
 use lightbench::lab::report::read_json;
 use lightbench::lab::study::bundle::{pack, unpack};
-use lightbench::lab::study::history::{Change, PictureChange, TimeChange, Told, changes};
+use lightbench::lab::study::history::{Change, PictureChange, Reported, TimeChange, changes};
 use lightbench::lab::study::{Plan, Store};
 
 use super::running::{Ran, Run};
@@ -76,7 +76,7 @@ pub struct ReproduceArguments {
 ///
 /// # Errors
 /// A bundle that is none, or anything that keeps it from being measured.
-pub fn reproduce(arguments: &ReproduceArguments) -> anyhow::Result<()> {
+pub fn reproduce(arguments: &ReproduceArguments, limits: Option<&Path>) -> anyhow::Result<()> {
     project::writable(&arguments.out.join("report.html"))?;
     let out = std::path::absolute(&arguments.out)
         .with_context(|| format!("--out {}", arguments.out.display()))?;
@@ -90,21 +90,22 @@ pub fn reproduce(arguments: &ReproduceArguments) -> anyhow::Result<()> {
     let run = Run {
         files: &files,
         gpu: &arguments.gpu,
+        limits,
         command_line: &command_line,
     };
     let Ran { mut study, stopped } = run.measure(&store, &plan, &points)?;
-    outcome::write(&mut study, &store, &points, &out)?;
+    outcome::write(&mut study, &out)?;
     if stopped {
         return Err(Stopped.into());
     }
     let old = unpacked.report.join("report.json");
     let before = read_json(&old)?;
     let found = changes(
-        Told {
+        Reported {
             study: &study,
             folder: &out,
         },
-        Told {
+        Reported {
             study: &before,
             folder: old.parent().unwrap_or(Path::new(".")),
         },

@@ -80,5 +80,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             study.missing.join("; ")
         ));
     }
-    outcome::write(&mut study, &merged, &points, &arguments.out)
+    outcome::write(&mut study, &arguments.out)
 }

@@ -7,7 +7,7 @@ use lightbench::lab::report::format::{bytes, milliseconds};
 use lightbench::lab::report::summary::{clock_name, summarize_study};
 use lightbench::lab::report::{Comparison, write_study};
 use lightbench::lab::statistics::Summary;
-use lightbench::lab::study::{Planned, Store, Study, load_linear};
+use lightbench::lab::study::Study;
 
 use crate::cli::report::say;
 
@@ -15,13 +15,7 @@ use crate::cli::report::say;
 ///
 /// # Errors
 /// A disk that can't be written.
-pub fn write(
-    study: &mut Study,
-    store: &Store,
-    points: &[Planned],
-    folder: &Path,
-) -> anyhow::Result<()> {
-    load_linear(study, store, points);
+pub fn write(study: &mut Study, folder: &Path) -> anyhow::Result<()> {
     write_study(study, folder)?;
     print(study)?;
     say(folder.join("report.html").display().to_string())

@@ -25,6 +25,8 @@ pub struct Run<'a> {
     pub files: &'a Files,
     /// The adapter.
     pub gpu: &'a GpuArguments,
+    /// The file of `--limits`, by which the processes are bound too.
+    pub limits: Option<&'a Path>,
     /// The command that stands in the report.
     pub command_line: &'a str,
 }
@@ -79,7 +81,8 @@ impl Run<'_> {
             Told::Warning(text) => warn(text),
             Told::Note(text) => note(text),
         };
-        let launch = launcher(self.files, self.gpu, self.command_line)?(store.folder());
+        let launch =
+            launcher(self.files, self.gpu, self.limits, self.command_line)?(store.folder());
         let ran = run_processes(&launch, store, plan, points, &progress, &mut tell);
         drop(bar);
         let stopped = match ran {
@@ -143,6 +146,7 @@ impl Run<'_> {
 pub fn launcher(
     files: &Files,
     gpu: &GpuArguments,
+    limits: Option<&Path>,
     command_line: &str,
 ) -> anyhow::Result<impl Fn(&Path) -> Launch + Send + 'static> {
     let program = env::current_exe().context("can't find this program's own file")?;
@@ -150,8 +154,8 @@ pub fn launcher(
     if let Some(project) = files.project() {
         before.extend(["--project".into(), project.into()]);
     }
-    if let Some(limits) = limits_file() {
-        before.extend(["--limits".into(), limits]);
+    if let Some(limits) = limits {
+        before.extend(["--limits".into(), limits.into()]);
     }
     before.push("study-worker".into());
     before.extend(["--command-line".into(), command_line.into()]);
@@ -164,21 +168,4 @@ pub fn launcher(
             arguments,
         }
     })
-}
-
-/// What `--limits` of this process names: its workers are held to the same.
-fn limits_file() -> Option<OsString> {
-    let mut arguments = env::args_os();
-    while let Some(argument) = arguments.next() {
-        if argument == "--limits" {
-            return arguments.next();
-        }
-        let file = argument
-            .to_str()
-            .and_then(|text| text.strip_prefix("--limits="));
-        if let Some(file) = file {
-            return Some(file.into());
-        }
-    }
-    None
 }

@@ -9,7 +9,6 @@ use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::extent::bounds_of;
-use crate::ui::workbench::picking::pick;
 
 /// Chooses what is under a place; nothing there chooses none. With `more` what was chosen stays.
 pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool) {
@@ -19,7 +18,7 @@ pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool) {
         return;
     };
     let icon = icons.then(|| icon_at(scene, lens, at)).flatten();
-    let under = icon.or_else(|| pick(scene, lens.ray(at)).map(|(entity, _)| entity));
+    let under = icon.or_else(|| scene.pick(lens.ray(at)).map(|hit| hit.entity));
     match (under, more) {
         (Some(entity), true) => workbench.selection.toggle(scene, entity),
         (Some(entity), false) => workbench.selection.set(scene, [entity]),

@@ -3,8 +3,7 @@
 
 use lightbench::render::View;
 use lightbench::script::Scene;
-use lightbench::world::glam::Mat4;
-use lightbench::world::{Camera, Entity, Name, WorldMatrix};
+use lightbench::world::{Camera, Entity, Name};
 
 use super::Workbench;
 use super::flat::Side;
@@ -77,25 +76,11 @@ impl Workbench {
     pub(super) fn watched_view(&self) -> Option<View> {
         let scene = self.scenes.scene()?;
         let entity = scene.world.find(self.watched_camera.as_deref()?)?;
-        view_of(scene, entity)
+        View::from_camera(&scene.world, entity)
     }
 }
 
 fn name(scene: &Scene, entity: Entity) -> String {
     let name: Option<Name> = scene.world.get(entity);
     name.map_or_else(String::new, |name| name.text)
-}
-
-/// What a camera of the scene sees, whether it is active or not.
-pub fn view_of(scene: &Scene, entity: Entity) -> Option<View> {
-    let camera: Camera = scene.world.get(entity)?;
-    let matrix = scene.world.get::<WorldMatrix>(entity)?.matrix;
-    let (_, rotation, translation) = matrix.to_scale_rotation_translation();
-    let to_world = Mat4::from_rotation_translation(rotation, translation);
-    to_world.is_finite().then(|| View {
-        view: to_world.inverse(),
-        fov_y: camera.fov_y,
-        near: camera.near,
-        far: camera.far,
-    })
 }

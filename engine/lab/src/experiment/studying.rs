@@ -53,7 +53,6 @@ impl Workbench {
             other => LaboratoryError::Other(other.to_string()),
         })?;
         let mut study = join(&store, &plan, &points).map_err(|error| other(&error))?;
-        crate::study::load_linear(&mut study, &store, &points);
         write_study(&mut study, &folder).map_err(|error| other(&error))?;
         rows(&study)
     }

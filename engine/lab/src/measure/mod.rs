@@ -8,7 +8,6 @@ mod inputs;
 mod machine;
 mod series;
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use lightbench_assets::{Cancelled, Progress};
@@ -84,8 +83,6 @@ pub struct Measurement {
     /// One result a pipeline, in the order given, with its picture of the first frame if they were asked
     /// for.
     pub pipelines: Vec<PipelineResult>,
-    /// The same pictures in linear light, by the pipeline's name, where it names such a target.
-    pub linear: BTreeMap<String, HdrImage>,
     /// Frames measured of the pipeline that has the most: fewer than asked for where it was stopped.
     pub frames: u32,
 }
@@ -344,8 +341,7 @@ impl<'a> Bench<'a> {
             result.settled_after = vec![self.clocks[index].warming.len() as u32];
             if let Some((output, linear)) = pictures.next() {
                 result.picture = Some(output);
-                let linear = linear.map(|hdr| (result.name.clone(), hdr));
-                measurement.linear.extend(linear);
+                result.linear = linear;
             }
             measurement.pipelines.push(result);
         }

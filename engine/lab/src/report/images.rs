@@ -51,7 +51,7 @@ pub(super) enum Form {
 /// Bytes of PNG files that a page holds at most; as base 64 a third more, which with the text stays
 /// below 25 MB.
 const PAGE: usize = 16_000_000;
-/// Bytes up to which all pictures stay whole, so that they show without the script.
+/// Bytes up to which the pictures of all points stay whole, so that they show without the script.
 const PLAIN: usize = 8_000_000;
 
 /// Encodes the pictures of all pipelines of all points, in their order, and decides what a page
@@ -63,7 +63,8 @@ pub(super) fn encode(points: &[&Comparison]) -> Result<Vec<Vec<Encoded>>, LabErr
         .collect::<Result<_, LabError>>()?;
     let pictures = encoded.iter().flatten().filter_map(|e| e.picture.as_ref());
     if pictures.map(Vec::len).sum::<usize>() > PLAIN {
-        for (c, encoded) in points.iter().zip(&mut encoded) {
+        // Those of the first point show, and print, without the script in any case.
+        for (c, encoded) in points.iter().zip(&mut encoded).skip(1) {
             deltas(c, encoded)?;
         }
     }

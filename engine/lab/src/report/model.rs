@@ -334,21 +334,16 @@ impl Comparison {
     }
 
     /// Fills in the differences and heat maps of all pipelines but the reference from their
-    /// pictures. `linear` gives the picture of a pipeline before the tone curve, by name, where
-    /// there is one.
+    /// pictures.
     ///
     /// # Errors
     /// If two pictures differ in size or an option is out of range. Without a picture of the
     /// reference nothing is filled in.
-    pub fn compare_pictures<'a>(
-        &mut self,
-        linear: impl Fn(&str) -> Option<&'a HdrImage>,
-        options: DiffOptions,
-    ) -> Result<(), LabError> {
+    pub fn compare_pictures(&mut self, options: DiffOptions) -> Result<(), LabError> {
         let Some(reference) = self.reference_result().and_then(|r| r.picture.clone()) else {
             return Ok(());
         };
-        let linear_reference = linear(&self.reference);
+        let linear_reference = self.reference_result().and_then(|r| r.linear.clone());
         let mut maps = Vec::new();
         for pipeline in self
             .pipelines
@@ -360,7 +355,7 @@ impl Comparison {
                 maps.push((pipeline.name.clone(), diff.map));
                 pipeline.difference = Some(diff.difference);
             }
-            if let (Some(reference), Some(test)) = (linear_reference, linear(&pipeline.name)) {
+            if let (Some(reference), Some(test)) = (&linear_reference, &pipeline.linear) {
                 pipeline.linear_difference = Some(linear_errors(reference, test)?);
             }
         }

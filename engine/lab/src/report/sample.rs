@@ -187,8 +187,7 @@ pub fn with(pipelines: Vec<PipelineResult>) -> Comparison {
         pipelines,
         heat_map_scale: 1.0,
     };
-    c.compare_pictures(|_| None, DiffOptions::default())
-        .unwrap();
+    c.compare_pictures(DiffOptions::default()).unwrap();
     c
 }
 

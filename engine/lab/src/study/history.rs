@@ -84,7 +84,7 @@ pub struct Changes {
 
 /// A study that was read from its JSON file; its pictures lie beside it.
 #[derive(Clone, Copy, Debug)]
-pub struct Told<'a> {
+pub struct Reported<'a> {
     /// The study.
     pub study: &'a Study,
     /// The folder of the file.
@@ -95,7 +95,7 @@ pub struct Told<'a> {
 ///
 /// # Errors
 /// Pictures that can't be read.
-pub fn changes(new: Told<'_>, old: Told<'_>) -> Result<Changes, LabError> {
+pub fn changes(new: Reported<'_>, old: Reported<'_>) -> Result<Changes, LabError> {
     let mut found = Changes::default();
     let mut pairs = Vec::new();
     for point in &new.study.points {
@@ -318,7 +318,11 @@ mod tests {
 
     fn compare(new: &Study, old: &Study) -> Changes {
         let folder = Path::new("nowhere");
-        changes(Told { study: new, folder }, Told { study: old, folder }).unwrap()
+        changes(
+            Reported { study: new, folder },
+            Reported { study: old, folder },
+        )
+        .unwrap()
     }
 
     const BASE: [f64; 6] = [10.0, 10.1, 9.9, 10.05, 9.95, 10.0];

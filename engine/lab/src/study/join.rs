@@ -52,7 +52,8 @@ pub fn join(store: &Store, plan: &Plan, points: &[Planned]) -> Result<Study, Joi
         if parts.len() < plan.processes as usize {
             study.missing.push(planned.key.clone());
         }
-        if parts.first().is_some_and(|part| part.process == 0) {
+        if let Some(first) = parts.first_mut().filter(|part| part.process == 0) {
+            store.load_pictures(planned, first)?;
             let comparison = join_parts(parts)?;
             study.points.push(Point {
                 key: planned.key.clone(),
@@ -128,18 +129,6 @@ fn append_optional(ours: &mut Option<Vec<f64>>, theirs: &mut Option<Vec<f64>>) {
         (Some(ours), Some(theirs)) => ours.append(theirs),
         // Without the times of one process there are none of the point.
         _ => *ours = None,
-    }
-}
-
-/// Puts the pictures in linear light beside those that a display shows.
-pub fn load_linear(study: &mut Study, store: &Store, points: &[Planned]) {
-    for point in &mut study.points {
-        let Some(planned) = points.iter().find(|planned| planned.key == point.key) else {
-            continue;
-        };
-        for (index, result) in point.comparison.pipelines.iter_mut().enumerate() {
-            result.linear = store.linear(planned, index);
-        }
     }
 }
 

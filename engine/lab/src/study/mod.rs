@@ -14,7 +14,7 @@ pub mod tuning;
 mod views;
 mod worker;
 
-pub use join::{JoinError, drop_stale, join, load_linear};
+pub use join::{JoinError, drop_stale, join};
 pub use model::{Axis, CAMERA, Choice, Plan, Point, SIZE, START, Study, TRACED, Tuned};
 pub use points::{MOST_POINTS, PlanError, Planned, Shard};
 pub use processes::{Launch, Line, ProcessError, Told, in_words, run_processes};

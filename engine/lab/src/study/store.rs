@@ -149,7 +149,6 @@ impl Store {
         point: &Planned,
         process: u32,
         mut comparison: Comparison,
-        linear: impl Fn(&str) -> Option<HdrImage>,
     ) -> Result<(), LabError> {
         let stem = Self::stem(point, process);
         for (index, pipeline) in comparison.pipelines.iter_mut().enumerate() {
@@ -165,9 +164,8 @@ impl Store {
             for (number, view) in pipeline.views.iter_mut().enumerate() {
                 view.file = png(&view.picture, format!("{stem}-{index}-view{number}.png"))?;
             }
-            if let Some(picture) = linear(&pipeline.name) {
-                let path = self.path(&format!("{stem}-{index}.exr"));
-                save_linear(&path, &picture)?;
+            if let Some(picture) = &pipeline.linear {
+                save_linear(&self.path(&format!("{stem}-{index}.exr")), picture)?;
             }
         }
         let part = Part {
@@ -178,24 +176,38 @@ impl Store {
         write_json(&self.path(&format!("{stem}.json")), &part)
     }
 
-    /// Reads a part with its pictures; `None` where it is not there.
+    /// Reads a part without its pictures; `None` where it is not there.
     ///
     /// # Errors
-    /// Files that can't be read.
+    /// A file that can't be read.
     pub fn read(&self, point: &Planned, process: u32) -> Result<Option<Part>, LabError> {
         if !self.has(point, process) {
             return Ok(None);
         }
         let stem = Self::stem(point, process);
-        let mut part: Part = read_json(&self.path(&format!("{stem}.json")))?;
-        for pipeline in &mut part.comparison.pipelines {
+        read_json(&self.path(&format!("{stem}.json"))).map(Some)
+    }
+
+    /// Reads the pictures that a part names.
+    ///
+    /// # Errors
+    /// Files that can't be read.
+    pub fn load_pictures(&self, point: &Planned, part: &mut Part) -> Result<(), LabError> {
+        let stem = Self::stem(point, part.process);
+        for (index, pipeline) in part.comparison.pipelines.iter_mut().enumerate() {
             pipeline.picture = self.picture(pipeline.picture_file.take())?;
             pipeline.heat_map = self.picture(pipeline.heat_map_file.take())?;
             for view in &mut pipeline.views {
                 view.picture = self.picture(view.file.take())?;
             }
+            let linear = self.path(&format!("{stem}-{index}.exr"));
+            if linear.exists()
+                && let Picture::Hdr(picture) = Picture::open(&linear)?
+            {
+                pipeline.linear = Some(picture);
+            }
         }
-        Ok(Some(part))
+        Ok(())
     }
 
     fn picture(&self, file: Option<String>) -> Result<Option<LdrImage>, LabError> {
@@ -203,15 +215,6 @@ impl Store {
         match Picture::open(&self.path(&file))? {
             Picture::Ldr(picture) => Ok(Some(picture)),
             Picture::Hdr(_) => Ok(None),
-        }
-    }
-
-    /// The picture of a pipeline, by its place in the comparison, in linear light.
-    pub fn linear(&self, point: &Planned, pipeline: usize) -> Option<HdrImage> {
-        let path = self.path(&format!("{}-{pipeline}.exr", Self::stem(point, 0)));
-        match Picture::open(&path) {
-            Ok(Picture::Hdr(picture)) => Some(picture),
-            _ => None,
         }
     }
 

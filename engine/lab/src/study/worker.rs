@@ -17,9 +17,7 @@ use super::points::{PlanError, Planned};
 use super::store::Store;
 use super::views;
 use crate::diff::DiffOptions;
-use crate::measure::{
-    Inputs, MeasureError, MeasureOptions, Measurement, load_average, measure, processor_mhz,
-};
+use crate::measure::{Inputs, MeasureError, MeasureOptions, load_average, measure, processor_mhz};
 use crate::reference::output::{ToneCurve, shown};
 use crate::report::{
     Adapter, Comparison, Machine, Parameter, PipelineResult, ProcessRecord, SCHEMA, Seed,
@@ -105,9 +103,8 @@ pub fn work(
         progress,
     };
     for point in &process.points {
-        let (comparison, measured) = worker.point(point, tell)?;
-        let linear = |name: &str| measured.linear.get(name).cloned();
-        store.write(point, process.index, comparison, linear)?;
+        let comparison = worker.point(point, tell)?;
+        store.write(point, process.index, comparison)?;
         tell(Remark::Done(point.key.clone()));
     }
     Ok(())
@@ -134,7 +131,7 @@ impl Worker<'_> {
         &mut self,
         point: &Planned,
         tell: &mut dyn FnMut(Remark),
-    ) -> Result<(Comparison, Measurement), StudyError> {
+    ) -> Result<Comparison, StudyError> {
         self.progress.begin(format!("loading {}", point.key), 0.0)?;
         let mut scene = self.scene(point)?;
         scene
@@ -185,7 +182,7 @@ impl Worker<'_> {
         }
         self.keep(point, all, pipelines);
         for (choice, result) in self.plan.pipelines.iter().zip(&mut measured.pipelines) {
-            rename(result, choice.label.as_deref(), &mut measured.linear);
+            rename(result, choice.label.as_deref());
         }
         let record = ProcessRecord {
             index: self.process.index,
@@ -195,24 +192,15 @@ impl Worker<'_> {
             processor_mhz: mhz,
         };
         let mut comparison = self.describe(point, &scene, record);
-        comparison.pipelines = std::mem::take(&mut measured.pipelines);
-        if self.process.index > 0 {
-            // The pictures of the first process are the study's.
-            measured.linear.clear();
-            comparison
-                .pipelines
-                .iter_mut()
-                .for_each(|p| p.picture = None);
-        } else if let Some(reference) = traced {
-            self.compare_with_traced(&mut comparison, &measured, reference)?;
-        } else {
-            let linear = |name: &str| measured.linear.get(name);
-            comparison.compare_pictures(linear, DiffOptions::default())?;
+        comparison.pipelines = measured.pipelines;
+        if let Some(reference) = traced {
+            add_traced(&mut comparison, reference);
         }
+        comparison.compare_pictures(DiffOptions::default())?;
         if self.process.index == 0 {
             self.add_views(point, &mut comparison)?;
         }
-        Ok((comparison, measured))
+        Ok(comparison)
     }
 
     /// The scene at a point, before its first step.
@@ -364,43 +352,6 @@ impl Worker<'_> {
         Ok(Some(traced.picture))
     }
 
-    /// Compares all pictures with a traced one, which is shown as the first pipeline shows its own.
-    fn compare_with_traced(
-        &self,
-        comparison: &mut Comparison,
-        measured: &Measurement,
-        traced: HdrImage,
-    ) -> Result<(), StudyError> {
-        let parameters = comparison
-            .pipelines
-            .first()
-            .map_or(&[][..], |p| &p.parameters);
-        let value = |name: &str| {
-            parameters
-                .iter()
-                .find(|p| p.name == name)
-                .map(|p| &*p.value)
-        };
-        let exposure = value("exposure").and_then(|text| text.parse().ok());
-        let curve: Option<ToneCurve> = value("tone_curve").and_then(|text| text.parse().ok());
-        let picture = shown(&traced, exposure.unwrap_or(0.0), curve.unwrap_or_default());
-        comparison.pipelines.insert(
-            0,
-            PipelineResult {
-                name: TRACED.to_owned(),
-                title: "Path tracer".to_owned(),
-                picture: Some(picture),
-                ..PipelineResult::default()
-            },
-        );
-        let linear = |name: &str| match name {
-            TRACED => Some(&traced),
-            name => measured.linear.get(name),
-        };
-        comparison.compare_pictures(linear, DiffOptions::default())?;
-        Ok(())
-    }
-
     /// All of a comparison but its results.
     fn describe(&self, point: &Planned, scene: &Scene, record: ProcessRecord) -> Comparison {
         let parameters: Vec<Parameter> = scene
@@ -444,18 +395,32 @@ impl Worker<'_> {
     }
 }
 
+/// Puts a traced picture first, shown as the first pipeline shows its own.
+fn add_traced(comparison: &mut Comparison, traced: HdrImage) {
+    let first = comparison.pipelines.first();
+    let parameters = first.map_or(&[][..], |p| &p.parameters);
+    let value = |name: &str| {
+        let found = parameters.iter().find(|p| p.name == name);
+        found.map(|p| p.value.as_str())
+    };
+    let exposure = value("exposure").and_then(|text| text.parse().ok());
+    let curve: Option<ToneCurve> = value("tone_curve").and_then(|text| text.parse().ok());
+    let picture = shown(&traced, exposure.unwrap_or(0.0), curve.unwrap_or_default());
+    let reference = PipelineResult {
+        name: TRACED.to_owned(),
+        title: "Path tracer".to_owned(),
+        picture: Some(picture),
+        linear: Some(traced),
+        ..PipelineResult::default()
+    };
+    comparison.pipelines.insert(0, reference);
+}
+
 /// Gives a result the label that the plan has for it.
-fn rename(
-    result: &mut PipelineResult,
-    label: Option<&str>,
-    linear: &mut std::collections::BTreeMap<String, HdrImage>,
-) {
+fn rename(result: &mut PipelineResult, label: Option<&str>) {
     let Some(label) = label else { return };
-    if let Some(picture) = linear.remove(&result.name) {
-        linear.insert(label.to_owned(), picture);
-    }
     result.title = format!("{} ({label})", result.label());
-    result.name = label.to_owned();
+    label.clone_into(&mut result.name);
 }
 
 /// Makes one camera the only one that is active.

@@ -59,7 +59,7 @@ pub use behaviours::{BEHAVIOURS, BehaviourInfo};
 pub use input::SceneEvent;
 pub use list::{SceneEntry, list_scenes};
 pub use load::{load_scene, load_scene_again, load_scene_within, scene_names};
-pub use picking::Ray;
+pub use picking::{Hit, Ray};
 pub use pipeline_choice::PipelineChoice;
 pub use saved::EXTENSION as SCENE_EXTENSION;
 pub use snapshot::SceneSnapshot;
@@ -268,6 +268,12 @@ impl Scene {
     fn run_systems(&mut self, time: f64, dt: f64) {
         let meshes = self.assets.mesh_bounds();
         self.systems.run(&mut self.world, meshes, time, dt as f32);
+    }
+
+    /// The first visible triangle that a ray meets, whichever side it shows. Places are those of the
+    /// last step.
+    pub fn pick(&self, ray: Ray) -> Option<Hit> {
+        picking::pick(&self.world, &self.assets, ray)
     }
 
     /// Brings what the systems compute up to date with changes from outside, without letting time

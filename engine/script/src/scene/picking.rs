@@ -1,10 +1,11 @@
 //! What a line of sight meets first.
 
+use lightbench_assets::Assets;
 use lightbench_world::glam::{Affine3A, DVec3, Vec3};
-use lightbench_world::{Entity, MeshRenderer, WorldBounds, WorldMatrix};
+use lightbench_world::{Entity, MeshRenderer, World, WorldBounds, WorldMatrix};
 use rhai::{Dynamic, Map};
 
-use super::data::{Data, Stage};
+use super::data::Stage;
 use crate::api::{Api, Mistake};
 
 /// A line from a point in a direction, in the world.
@@ -17,30 +18,32 @@ pub struct Ray {
 }
 
 /// What a ray meets.
-pub(super) struct Hit {
-    pub(super) entity: Entity,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The entity whose mesh it is.
+    pub entity: Entity,
     /// In the world, in metres.
-    pub(super) point: DVec3,
+    pub point: DVec3,
     /// From the ray's origin, in metres.
-    pub(super) distance: f64,
+    pub distance: f64,
 }
 
 /// The first visible triangle that a ray meets, whichever side it shows. Places are those of the last
 /// step.
-pub(super) fn pick(data: &Data, ray: Ray) -> Option<Hit> {
+pub(super) fn pick(world: &World, assets: &Assets, ray: Ray) -> Option<Hit> {
     let direction = ray.direction.try_normalize()?;
-    let renderers = data.world.columns::<MeshRenderer>();
+    let renderers = world.columns::<MeshRenderer>();
     let rows = renderers.slices();
     let mut nearest: Option<(f32, Entity)> = None;
     for (row, &entity) in renderers.entities().iter().enumerate() {
         let farthest = nearest.map_or(f32::INFINITY, |(distance, _)| distance);
-        if !rows.visible[row] || !meets_bounds(data, entity, ray.origin, direction, farthest) {
+        if !rows.visible[row] || !meets_bounds(world, entity, ray.origin, direction, farthest) {
             continue;
         }
-        let Some(mesh) = data.assets.mesh(rows.mesh[row]) else {
+        let Some(mesh) = assets.mesh(rows.mesh[row]) else {
             continue;
         };
-        let Some(matrix) = data.world.get::<WorldMatrix>(entity) else {
+        let Some(matrix) = world.get::<WorldMatrix>(entity) else {
             continue;
         };
         let to_mesh = matrix.matrix.inverse();
@@ -64,15 +67,22 @@ pub(super) fn pick(data: &Data, ray: Ray) -> Option<Hit> {
 }
 
 /// Whether the ray comes through the sphere around an entity before a distance.
-fn meets_bounds(data: &Data, entity: Entity, origin: Vec3, direction: Vec3, farthest: f32) -> bool {
-    let Some(bounds) = data.world.get::<WorldBounds>(entity) else {
+fn meets_bounds(
+    world: &World,
+    entity: Entity,
+    origin: Vec3,
+    direction: Vec3,
+    farthest: f32,
+) -> bool {
+    let Some(bounds) = world.get::<WorldBounds>(entity) else {
         return false;
     };
     let to_center = Vec3::new(bounds.x, bounds.y, bounds.z) - origin;
     let along = to_center.dot(direction);
-    let beside = to_center.length_squared() - along * along;
-    let radius = bounds.radius * 1.001;
-    beside <= radius * radius && along >= -radius && along - radius < farthest
+    let beside = to_center - direction * along;
+    // Far origins, as those of orthographic views, are coarse.
+    let radius = bounds.radius * 1.001 + 1e-6 * along.abs();
+    beside.length() <= radius && along >= -radius && along - radius < farthest
 }
 
 /// The distance to the first triangle, by Möller and Trumbore 1997, "Fast, Minimum Storage
@@ -133,7 +143,11 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
                 origin: origin.as_vec3(),
                 direction: direction.as_vec3(),
             };
-            let Some(hit) = pick(&stage.lock(), ray) else {
+            let hit = {
+                let data = stage.lock();
+                pick(&data.world, &data.assets, ray)
+            };
+            let Some(hit) = hit else {
                 return Ok(Dynamic::UNIT);
             };
             let mut map = Map::new();

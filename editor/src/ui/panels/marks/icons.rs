@@ -1,6 +1,7 @@
 //! Lights and cameras over the picture, and how far the chosen ones reach.
 
 use egui::{Color32, Painter, Pos2, Stroke, vec2};
+use lightbench::render::View;
 use lightbench::script::Scene;
 use lightbench::world::glam::{Vec2, Vec3};
 use lightbench::world::{Camera, Entity, Light, LightKind, WorldMatrix};
@@ -8,7 +9,6 @@ use lightbench::world::{Camera, Entity, Light, LightKind, WorldMatrix};
 use super::shapes::{circle, line};
 use crate::ui::lens::Lens;
 use crate::ui::workbench::selection::Selection;
-use crate::ui::workbench::sight::view_of;
 
 /// Icons that are drawn; a scene may have a hundred thousand lights.
 const MOST: usize = 2000;
@@ -149,7 +149,7 @@ fn light_reach(
 }
 
 fn camera_reach(painter: &Painter, lens: &Lens, stroke: Stroke, scene: &Scene, entity: Entity) {
-    let Some(view) = view_of(scene, entity) else {
+    let Some(view) = View::from_camera(&scene.world, entity) else {
         return;
     };
     let to_world = view.view.inverse();

@@ -139,7 +139,7 @@ fn linear(w: &mut Writer, at: &At, p: &PipelineResult, image: &Encoded, index: u
     let Some(png) = image.linear.as_ref().filter(|_| image.held.linear) else {
         let text = "The picture in linear light is not in this page, which would be too large with \
                     it; the viewer shows no exposure of it.";
-        w.leaf("p", &[("class", "note")], text);
+        w.leaf("p", &[("class", "note exposure")], text);
         return;
     };
     let [width, height] = [picture.width, picture.height * 2].map(|s| s.to_string());
@@ -296,6 +296,9 @@ fn legend(w: &mut Writer, scale: f32) {
     w.leaf("p", &[("class", "note")], &format!("FLIP of each pixel, painted with the map magma from 0, no visible difference, to {scale}; the largest that FLIP can be is 1."));
 }
 
+/// Pipelines that a table of metrics has beside each other.
+const ON_PAPER: usize = 4;
+
 fn metrics_table(w: &mut Writer, c: &Comparison) {
     let compared: Vec<&PipelineResult> = c
         .pipelines
@@ -320,25 +323,24 @@ fn metrics_table(w: &mut Writer, c: &Comparison) {
         .copied()
         .max_by_key(|p| lines(p).len())
         .unwrap_or(first);
-    let mut columns = vec![words("Against the reference")];
-    columns.extend(compared.iter().map(|p| numbers(p.label())));
-    let rows: Vec<Vec<String>> = lines(longest)
-        .into_iter()
-        .enumerate()
-        .map(|(row, (name, _))| {
-            let mut cells = vec![name];
-            cells.extend(compared.iter().map(|p| {
-                lines(p)
-                    .get(row)
-                    .map_or_else(|| "–".into(), |(_, value)| value.clone())
-            }));
-            cells
-        })
-        .collect();
-    table(
-        w,
-        "Picture metrics. Formulas, spaces and constants are at the end.",
-        &columns,
-        &rows,
-    );
+    // Side by side they would not fit on paper.
+    for some in compared.chunks(ON_PAPER) {
+        let mut columns = vec![words("Against the reference")];
+        columns.extend(some.iter().map(|p| numbers(p.label())));
+        let rows: Vec<Vec<String>> = lines(longest)
+            .into_iter()
+            .enumerate()
+            .map(|(row, (name, _))| {
+                let mut cells = vec![name];
+                cells.extend(some.iter().map(|p| {
+                    lines(p)
+                        .get(row)
+                        .map_or_else(|| "–".into(), |(_, value)| value.clone())
+                }));
+                cells
+            })
+            .collect();
+        let caption = "Picture metrics. Formulas, spaces and constants are at the end.";
+        table(w, caption, &columns, &rows);
+    }
 }
