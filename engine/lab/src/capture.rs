@@ -95,7 +95,7 @@ pub(crate) fn draw<'a>(
     renderer.render(&mut scene.world, &scene.assets, pipeline, &view, size, time)
 }
 
-fn view_of(scene: &mut Scene) -> View {
+pub(crate) fn view_of(scene: &mut Scene) -> View {
     scene.refresh();
     View::from_world(&scene.world).unwrap_or_default()
 }

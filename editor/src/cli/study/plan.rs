@@ -63,8 +63,8 @@ pub struct PlanArguments {
     /// How many fresh processes measure, one after another; five are the least for a ranking
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
     processes: u32,
-    /// Seconds for a pipeline at a point, over all processes; what is cut short is marked. One frame is
-    /// measured in each process however long it takes
+    /// Seconds for a pipeline at a point, over all processes; what is cut short is marked, and what too
+    /// few processes had time for is not ranked
     #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
     seconds: f64,
     /// Heading of the report

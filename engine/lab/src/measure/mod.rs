@@ -4,6 +4,7 @@
 //! every pipeline in turn before the scene moves on, so that a machine that grows warm or busy slows all
 //! of them alike. Who begins changes from frame to frame, because the first one uploads what moved.
 
+mod allowance;
 mod inputs;
 mod machine;
 mod series;
@@ -16,32 +17,30 @@ use lightbench_render::queries::Measured;
 use lightbench_render::{FrameStatistics, Pipeline, Problem, RenderError, Renderer};
 use lightbench_script::Scene;
 
+pub use allowance::Allowance;
 pub use inputs::Inputs;
 pub use machine::{load_average, processor_mhz, resident_bytes};
 
-use crate::capture::{STEP, draw, read_hdr, read_output};
+use crate::capture::{STEP, draw, read_hdr, read_output, view_of};
 use crate::report::PipelineResult;
 use crate::{HdrImage, LdrImage};
+use allowance::Clock;
 use series::{Missing, Series};
 
 /// Seconds after which a frame counts as hung.
 const TIMEOUT: u64 = 60;
 /// How often a frame is drawn before a pipeline's buffers must be large enough.
 const MOST_ATTEMPTS: usize = 4;
-/// Two frames that differ by less than this share have the same time.
-const SETTLED: f64 = 0.05;
 /// How many frames a warm-up is prolonged by at most.
 const MOST_UNTIL_SETTLED: u32 = 6;
-/// The share of a pipeline's time that a warm-up may be prolonged to.
-const WARMING: f64 = 0.3;
 
 /// How to measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasureOptions {
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// Frames drawn first by each pipeline and not measured, at the least. The scene stands still
-    /// meanwhile.
+    /// Frames drawn first by each pipeline and not measured, at the least: that of its picture is one
+    /// of them. The scene stands still meanwhile.
     pub warmup: u32,
     /// Whether more of them are drawn until the times have settled.
     pub settle: bool,
@@ -54,10 +53,10 @@ pub struct MeasureOptions {
     /// Whether after every second frame one is drawn whose passes are not timed, so that the cost of
     /// the queries is known.
     pub unqueried: bool,
-    /// Whether pictures are taken, in frames of their own before the warm-up.
+    /// Whether pictures are taken, in the first frames of the warm-up.
     pub pictures: bool,
     /// Seconds for each pipeline. A frame that would end later is not begun, but one is always
-    /// measured.
+    /// measured. [`measure_within`] takes finer limits.
     pub seconds: f64,
 }
 
@@ -122,7 +121,27 @@ pub fn measure(
     options: MeasureOptions,
     progress: &Progress,
 ) -> Result<Measurement, MeasureError> {
+    let allowances = vec![Allowance::of_one_process(options.seconds); pipelines.len()];
+    measure_within(renderer, scene, pipelines, options, &allowances, progress)
+}
+
+/// [`measure`] with the time that each pipeline may take, in their order, instead of
+/// [`MeasureOptions::seconds`].
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_within(
+    renderer: &mut Renderer,
+    scene: &mut Scene,
+    pipelines: &mut [Pipeline],
+    options: MeasureOptions,
+    allowances: &[Allowance],
+    progress: &Progress,
+) -> Result<Measurement, MeasureError> {
     let mut bench = Bench::new(renderer, scene, pipelines, options, progress);
+    bench.clocks = (0..bench.pipelines.len())
+        .map(|index| Clock::new(allowances.get(index).copied().unwrap_or_default()))
+        .collect();
     for frame in 1..=options.start {
         progress.begin("moving the scene to its start", 0.0)?;
         bench.step(frame)?;
@@ -152,27 +171,6 @@ struct Bench<'a> {
 /// A picture as a display shows it, and in linear light where there is such a target.
 type Pictures = Vec<(LdrImage, Option<HdrImage>)>;
 
-/// What a pipeline may still take.
-#[derive(Clone, Debug, Default)]
-struct Clock {
-    spent: f64,
-    last: f64,
-    /// Times of the frames of the warm-up.
-    warming: Vec<f64>,
-}
-
-impl Clock {
-    fn add(&mut self, seconds: f64) {
-        self.spent += seconds;
-        self.last = seconds;
-    }
-
-    /// Whether the last two frames took the same time.
-    fn has_settled(&self) -> bool {
-        matches!(self.warming[..], [.., a, b] if (a - b).abs() <= SETTLED * a.min(b))
-    }
-}
-
 impl<'a> Bench<'a> {
     fn new(
         renderer: &'a mut Renderer,
@@ -188,7 +186,7 @@ impl<'a> Bench<'a> {
                 .iter()
                 .map(|pipeline| Series::new(pipeline, frames))
                 .collect(),
-            clocks: vec![Clock::default(); pipelines.len()],
+            clocks: Vec::new(),
             renderer,
             scene,
             pipelines,
@@ -212,7 +210,8 @@ impl<'a> Bench<'a> {
         for index in 0..self.pipelines.len() {
             let name = &self.pipelines[index].desc.name;
             self.progress.begin(format!("drawing {name}"), 0.0)?;
-            self.draw(index, 0)?;
+            let wall = self.draw(index, 0)?.wall;
+            self.clocks[index].add_warming(wall);
             let pipeline = &self.pipelines[index];
             pictures.push((
                 read_output(self.renderer, pipeline)?,
@@ -227,28 +226,53 @@ impl<'a> Bench<'a> {
         if warmup == 0 {
             return Ok(());
         }
+        let first = u32::from(self.options.pictures);
         let most = if settle {
             warmup + MOST_UNTIL_SETTLED
         } else {
             warmup
         };
-        for round in 0..most {
+        for round in first..most {
             for index in 0..self.pipelines.len() {
                 let clock = &self.clocks[index];
-                let more = !clock.has_settled()
-                    && clock.spent + clock.last < WARMING * self.options.seconds;
-                if round >= warmup && !more {
+                if !clock.allows_warming(round < warmup) {
                     continue;
                 }
                 let name = &self.pipelines[index].desc.name;
                 let share = self.share(round);
                 self.progress.begin(format!("warming up {name}"), share)?;
                 let wall = self.draw(index, 0)?.wall;
-                self.clocks[index].add(wall);
-                self.clocks[index].warming.push(wall);
+                self.clocks[index].add_warming(wall);
+            }
+        }
+        for index in 0..self.pipelines.len() {
+            if !self.clocks[index].is_warm() && self.clocks[index].allows_first() {
+                self.load_programs(index)?;
             }
         }
         tracing::debug!("all pipelines are warm; measuring");
+        Ok(())
+    }
+
+    /// Where there is no time for a whole frame, at least what the driver does once is done: each GPU
+    /// pipeline is drawn with, clipped away.
+    fn load_programs(&mut self, index: usize) -> Result<(), MeasureError> {
+        let time = f64::from(self.options.start) * self.options.step;
+        let started = Instant::now();
+        loop {
+            let view = view_of(self.scene);
+            let (world, assets) = (&mut self.scene.world, &self.scene.assets);
+            let pipeline = &mut self.pipelines[index];
+            let size = self.options.size;
+            let ready = self
+                .renderer
+                .warm_up(world, assets, pipeline, &view, size, time)?;
+            self.renderer.finish(TIMEOUT)?;
+            if ready {
+                break;
+            }
+        }
+        self.clocks[index].add(started.elapsed().as_secs_f64());
         Ok(())
     }
 
@@ -266,7 +290,10 @@ impl<'a> Bench<'a> {
             let open: Vec<usize> = (0..self.pipelines.len())
                 .filter(|index| {
                     let clock = &self.clocks[*index];
-                    first || clock.spent + clock.last <= self.options.seconds
+                    match first {
+                        true => clock.allows_first(),
+                        false => clock.allows_another(),
+                    }
                 })
                 .collect();
             if open.is_empty() || !first && stopped.is_err() {
@@ -279,7 +306,7 @@ impl<'a> Bench<'a> {
             for turn in 0..open.len() {
                 let index = open[(self.measured as usize + turn) % open.len()];
                 let frame = self.draw(index, self.measured)?;
-                self.clocks[index].add(frame.wall);
+                self.clocks[index].add_frame(frame.wall);
                 self.series[index].add(&stepped, &frame);
             }
             if self.options.unqueried && self.measured % 2 == 1 {
@@ -290,14 +317,17 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// A frame of each pipeline without the queries.
+    /// A frame without the queries of each pipeline that has time for it.
     fn draw_unqueried(&mut self, open: &[usize]) -> Result<(), MeasureError> {
         self.renderer.enable_queries(false);
         let mut drawn = Ok(());
         for &index in open {
+            if !self.clocks[index].allows_another() {
+                continue;
+            }
             match self.draw(index, self.measured) {
                 Ok(frame) => {
-                    self.clocks[index].add(frame.wall);
+                    self.clocks[index].add_frame(frame.wall);
                     self.series[index].add_unqueried(frame.wall);
                 }
                 Err(error) => {
@@ -338,7 +368,9 @@ impl<'a> Bench<'a> {
             let mut result = series.clone().finish(pipeline, &missing);
             result.cut = !cut_short && result.frame_cpu_ms.len() < self.options.frames as usize;
             result.process_frames = vec![result.frame_cpu_ms.len() as u32];
-            result.settled_after = vec![self.clocks[index].warming.len() as u32];
+            let clock = &self.clocks[index];
+            result.settled_after = vec![clock.warming_frames()];
+            result.process_seconds = vec![clock.spent()];
             if let Some((output, linear)) = pictures.next() {
                 result.picture = Some(output);
                 result.linear = linear;

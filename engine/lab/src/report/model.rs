@@ -149,9 +149,13 @@ pub struct PipelineResult {
     /// How many of the frames each process measured, in order. Empty where one process measured all.
     #[serde(default)]
     pub process_frames: Vec<u32>,
-    /// Frames that each process drew until the times had settled, in order.
+    /// Frames that each process drew until the times had settled, in order. 0 where there was no time
+    /// for one: then the driver had only made its programs ready.
     #[serde(default)]
     pub settled_after: Vec<u32>,
+    /// Seconds that each process took to draw it, warming up included, in order.
+    #[serde(default)]
+    pub process_seconds: Vec<f64>,
     /// Whether fewer frames than asked for were measured, since the time for a point was up.
     #[serde(default)]
     pub cut: bool,

@@ -100,6 +100,7 @@ fn append(ours: &mut PipelineResult, theirs: &mut PipelineResult) {
     append_optional(&mut ours.frame_gpu_ms, &mut theirs.frame_gpu_ms);
     ours.process_frames.append(&mut theirs.process_frames);
     ours.settled_after.append(&mut theirs.settled_after);
+    ours.process_seconds.append(&mut theirs.process_seconds);
     ours.frame_wall_ms.append(&mut theirs.frame_wall_ms);
     ours.unqueried_wall_ms.append(&mut theirs.unqueried_wall_ms);
     ours.cut |= theirs.cut;

@@ -17,7 +17,9 @@ use super::points::{PlanError, Planned};
 use super::store::Store;
 use super::views;
 use crate::diff::DiffOptions;
-use crate::measure::{Inputs, MeasureError, MeasureOptions, load_average, measure, processor_mhz};
+use crate::measure::{
+    Allowance, Inputs, MeasureError, MeasureOptions, load_average, measure_within, processor_mhz,
+};
 use crate::reference::output::{ToneCurve, shown};
 use crate::report::{
     Adapter, Comparison, Machine, Parameter, PipelineResult, ProcessRecord, SCHEMA, Seed,
@@ -103,7 +105,8 @@ pub fn work(
         progress,
     };
     for point in &process.points {
-        let comparison = worker.point(point, tell)?;
+        let allowances = allowances(plan, store, point, process.index)?;
+        let comparison = worker.point(point, &allowances, tell)?;
         store.write(point, process.index, comparison)?;
         tell(Remark::Done(point.key.clone()));
     }
@@ -130,6 +133,7 @@ impl Worker<'_> {
     fn point(
         &mut self,
         point: &Planned,
+        allowances: &[Allowance],
         tell: &mut dyn FnMut(Remark),
     ) -> Result<Comparison, StudyError> {
         self.progress.begin(format!("loading {}", point.key), 0.0)?;
@@ -156,14 +160,15 @@ impl Worker<'_> {
             unqueried: true,
             // The pictures of the first process are the study's.
             pictures: self.process.index == 0,
-            seconds: self.plan.seconds / f64::from(self.plan.processes.max(1)),
+            seconds: self.plan.seconds,
         };
         let traced = self.traced(point, &mut scene)?;
-        let measured = measure(
+        let measured = measure_within(
             &mut self.renderer,
             &mut scene,
             &mut pipelines,
             options,
+            allowances,
             self.progress,
         );
         let warnings = self.renderer.take_warnings();
@@ -393,6 +398,32 @@ impl Worker<'_> {
             heat_map_scale: 1.0,
         }
     }
+}
+
+/// What the processes before this one have left of the time for each pipeline at a point.
+fn allowances(
+    plan: &Plan,
+    store: &Store,
+    point: &Planned,
+    process: u32,
+) -> Result<Vec<Allowance>, LabError> {
+    let mut before = Vec::new();
+    for earlier in 0..process {
+        before.extend(store.read(point, earlier)?);
+    }
+    let of = |index: usize| {
+        let results = before.iter().filter_map(|part| {
+            let drawn = part.comparison.pipelines.iter();
+            drawn.filter(|p| p.name != TRACED).nth(index)
+        });
+        let (mut spent, mut frames) = (Vec::new(), Vec::new());
+        for result in results {
+            spent.extend(&result.process_seconds);
+            frames.extend(result.frame_wall_ms.iter().map(|ms| ms / 1e3));
+        }
+        Allowance::after(plan.seconds, &spent, &frames, plan.processes - process)
+    };
+    Ok((0..plan.pipelines.len()).map(of).collect())
 }
 
 /// Puts a traced picture first, shown as the first pipeline shows its own.
