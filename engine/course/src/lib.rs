@@ -1,0 +1,12 @@
+//! Hand-ins of students, and their grading.
+//!
+//! - [`archive`] packs what is handed in, and unpacks what strangers send;
+//! - [`exports`] finds each student's newest hand-in in what Moodle or Canvas exports;
+//! - [`supervise`] runs a process that may hang, crash or take all memory;
+//! - [`confine`] takes from a process what it needs not have.
+#![warn(missing_docs)]
+
+pub mod archive;
+pub mod confine;
+pub mod exports;
+pub mod supervise;
