@@ -1,5 +1,7 @@
 //! `lightbench edit`: the window.
 
+use std::path::Path;
+
 use anyhow::anyhow;
 use clap::Args;
 use lightbench::assets::files::Files;
@@ -7,6 +9,7 @@ use lightbench::assets::files::Files;
 use super::arguments::{GpuArguments, SceneArguments};
 use super::doctor;
 use super::load::{self, Request};
+use crate::ui::workbench::reporting::WorkerOptions;
 use crate::ui::{self, EditorOptions};
 
 /// Arguments of `lightbench edit`.
@@ -36,7 +39,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// No display, no driver, or names that mean nothing.
-pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
+pub fn run(arguments: &Arguments, mut files: Files, limits: Option<&Path>) -> anyhow::Result<()> {
     doctor::display().map_err(|why| {
         anyhow!(
             "the editor needs a display, and there is {why}. Without one, `lightbench render` \
@@ -62,6 +65,10 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         pipeline_settings,
         gpu: arguments.gpu.options(),
         kept: ui::kept::default_path(),
+        worker: WorkerOptions {
+            program: None,
+            limits: limits.map(Path::to_owned),
+        },
         files,
     })
 }

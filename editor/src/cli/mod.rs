@@ -152,7 +152,7 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
     let files = || project::open(project);
     let limits = arguments.limits.as_deref();
     match arguments.command {
-        Command::Edit(arguments) => edit::run(&arguments, files()?),
+        Command::Edit(arguments) => edit::run(&arguments, files()?, limits),
         Command::Render(arguments) => render::run(&arguments, files()?),
         Command::Trace(arguments) => trace::run(&arguments, files()?),
         Command::Inspect(arguments) => inspect::run(&arguments, files()?),

@@ -7,13 +7,17 @@ use clap::Args;
 use lightbench::assets::Progress;
 use lightbench::assets::files::Files;
 use lightbench::assets::images::{save_exr, save_png};
-use lightbench::lab::capture::{Capture, CaptureError, CaptureOptions, capture};
+use lightbench::lab::capture::{Capture, CaptureError, CaptureOptions, capture, capture_through};
+use lightbench::render::{Pipeline, Renderer};
+use lightbench::script::Scene;
 
 use super::arguments::{GpuArguments, SceneArguments, Size};
 use super::load::{self, Request, Stage};
 use super::progress::Bar;
 use super::project;
 use super::report::{self, Stopped, Usage, say, warn};
+use crate::viewpoint::Viewpoint;
+use crate::viewpoint::moment::{self, WayError};
 
 /// Arguments of `lightbench render`.
 #[derive(Args, Debug)]
@@ -23,13 +27,19 @@ Examples:
   lightbench render many_lights --pipeline forward_single_pass --set lights=256 --out lights.png
   lightbench render showroom --model teapot.obj --size 800x600 --out teapot.png
   lightbench render my_scene.rhai --frame 120 --set pipeline.exposure=1 --out later.exr
+  lightbench render --view 'lightbench-view-1 scene=atrium …' --out the_view.png
 
 A PNG holds the picture as a display shows it. An EXR holds linear light before exposure and tone
 curve. The same input gives the same picture, bit for bit, on the same driver.")]
 pub struct Arguments {
     /// A scene's name, as in `lightbench list scenes`, or the path of a .rhai file
-    #[arg(value_name = "SCENE")]
-    scene: String,
+    #[arg(value_name = "SCENE", required_unless_present = "view")]
+    scene: Option<String>,
+    /// A view that the editor has copied, as one word: scene, pipeline, their values, camera, time and
+    /// size. Draws the picture that was on the screen
+    #[arg(long, value_name = "VIEW", conflicts_with_all = ["scene", "pipeline", "size", "frame", "set",
+        "model"])]
+    view: Option<Viewpoint>,
     /// The pipeline: a name, as in `lightbench list pipelines`, or the path of a .rhai file
     #[arg(long, value_name = "PIPELINE", default_value = "deferred_shading")]
     pipeline: String,
@@ -65,10 +75,19 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     let format = format_of(&arguments.out)?;
     project::writable(&arguments.out)?;
     let progress = Progress::new();
+    let of_view = arguments.view.as_ref().map(arguments_of);
+    let (scene, pipeline, scene_arguments) = match (&arguments.view, &of_view) {
+        (Some(view), Some(of_view)) => (view.scene.as_str(), &view.pipeline, of_view),
+        _ => (
+            arguments.scene.as_deref().unwrap_or_default(),
+            &arguments.pipeline,
+            &arguments.scene_arguments,
+        ),
+    };
     let request = Request {
-        scene: &arguments.scene,
-        arguments: &arguments.scene_arguments,
-        pipelines: std::slice::from_ref(&arguments.pipeline),
+        scene,
+        arguments: scene_arguments,
+        pipelines: std::slice::from_ref(pipeline),
         gpu: &arguments.gpu,
     };
     let Stage {
@@ -92,7 +111,10 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
         frame: arguments.frame,
     };
     let bar = Bar::follow(&progress);
-    let picture = capture(&mut renderer, &mut scene, pipeline, options, &progress);
+    let picture = match &arguments.view {
+        Some(view) => capture_view(&mut renderer, &mut scene, pipeline, view, &progress)?,
+        None => capture(&mut renderer, &mut scene, pipeline, options, &progress),
+    };
     drop(bar);
     load::tell(&files, &mut scene);
     for warning in renderer.take_warnings() {
@@ -105,6 +127,37 @@ pub fn run(arguments: &Arguments, mut files: Files) -> anyhow::Result<()> {
     })?;
     save(&picture, format, &arguments.out)?;
     say(arguments.out.display().to_string())
+}
+
+/// What the command line would be for a view. A model that lies outside of the project is let in as
+/// `--model` does.
+fn arguments_of(view: &Viewpoint) -> SceneArguments {
+    let model = view.scene_settings.get("model").map(ToString::to_string);
+    let model = model.map(PathBuf::from).filter(|path| path.is_absolute());
+    let mut sets = view.sets();
+    if model.is_some() {
+        sets.retain(|set| !set.starts_with("scene.model="));
+    }
+    SceneArguments { model, set: sets }
+}
+
+/// Takes the picture of a view.
+fn capture_view(
+    renderer: &mut Renderer,
+    scene: &mut Scene,
+    pipeline: &mut Pipeline,
+    view: &Viewpoint,
+    progress: &Progress,
+) -> anyhow::Result<Result<Capture, CaptureError>> {
+    let time = match moment::go(scene, view.time, progress) {
+        Ok(time) => time,
+        Err(WayError::Script(problem)) => return Ok(Err(CaptureError::Script(problem))),
+        Err(WayError::Cancelled(stopped)) => return Ok(Err(stopped.into())),
+    };
+    let camera = view.camera.view(scene);
+    let camera = camera.map_err(|error| Usage(format!("--view: {error}")))?;
+    let picture = capture_through(renderer, scene, pipeline, &camera, view.size, time);
+    Ok(picture.map_err(CaptureError::from))
 }
 
 /// The format that a file's name asks for.

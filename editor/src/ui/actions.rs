@@ -2,6 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use super::compare_actions::{self, CompareAction};
 use super::editor::Editor;
 use super::layout::Panel;
 use super::panels::handles::Tool;
@@ -29,6 +30,8 @@ pub enum Action {
     Perspective,
     /// Show something over the picture, or hide it.
     Mark(Mark),
+    /// Compare two pipelines, and keep what was found.
+    Compare(CompareAction),
     /// Find an action, a scene or a pipeline by its name.
     Palette,
     /// Take back the last change by hand.
@@ -73,11 +76,11 @@ pub struct Entry {
     pub shortcut: Option<KeyboardShortcut>,
 }
 
-const fn key(key: Key) -> Option<KeyboardShortcut> {
+pub(super) const fn key(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::NONE, key))
 }
 
-const fn command(key: Key) -> Option<KeyboardShortcut> {
+pub(super) const fn command(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::COMMAND, key))
 }
 
@@ -87,11 +90,15 @@ const COMMAND_SHIFT: Modifiers = Modifiers {
     ..Modifiers::COMMAND
 };
 
-const fn shifted(key: Key) -> Option<KeyboardShortcut> {
+pub(super) const fn shifted(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::SHIFT, key))
 }
 
-const fn entry(action: Action, title: &'static str, shortcut: Option<KeyboardShortcut>) -> Entry {
+pub(super) const fn entry(
+    action: Action,
+    title: &'static str,
+    shortcut: Option<KeyboardShortcut>,
+) -> Entry {
     Entry {
         action,
         title,
@@ -100,7 +107,7 @@ const fn entry(action: Action, title: &'static str, shortcut: Option<KeyboardSho
 }
 
 /// The menus, in their order, each with its groups of actions.
-pub const MENUS: [(&str, &[&[Entry]]); 6] = [
+pub const MENUS: [(&str, &[&[Entry]]); 7] = [
     (
         "File",
         &[
@@ -181,6 +188,8 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
                 entry(Action::Toggle(Panel::Actions), "Actions", None),
                 entry(Action::Toggle(Panel::Plots), "Plots", None),
                 entry(Action::Toggle(Panel::History), "History", None),
+                entry(Action::Toggle(Panel::Compare), "Comparison", None),
+                entry(Action::Toggle(Panel::Notebook), "Notebook", None),
             ],
             &[
                 entry(Action::ResetLayout, "Reset the layout", None),
@@ -203,6 +212,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
             ),
         ]],
     ),
+    ("Compare", compare_actions::MENU),
     (
         "Time",
         &[&[

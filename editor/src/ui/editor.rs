@@ -14,8 +14,10 @@ use super::layout::{self, Panel};
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
 use super::panels::marks::Marks;
+use super::panels::notebook::NotebookPanel;
 use super::panels::palette::Palette;
 use super::panels::plots::PlotsPanel;
+use super::panels::view_text::PasteWindow;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::screen::Screen;
@@ -34,6 +36,9 @@ pub struct Editor {
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
     pub(super) viewport: ViewportPanel,
+    pub(super) notebook: NotebookPanel,
+    /// The window in which a view is pasted, while it is open.
+    pub(super) paste: Option<PasteWindow>,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
     /// What is drawn over the picture.
@@ -72,6 +77,8 @@ impl Editor {
             console: ConsolePanel::default(),
             plots: PlotsPanel::default(),
             viewport: ViewportPanel::default(),
+            notebook: NotebookPanel::default(),
+            paste: None,
             palette: None,
             marks: Marks::default(),
             kept,
@@ -130,6 +137,7 @@ impl Editor {
         }
         panels::help::show(self, &ctx);
         panels::palette::show(self, &ctx);
+        panels::view_text::show(self, &ctx);
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -158,6 +166,7 @@ impl Editor {
             Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
             Action::Perspective => workbench.look_through(Sight::Perspective),
             Action::Mark(mark) => self.marks.toggle(mark),
+            Action::Compare(action) => super::compare_actions::perform(self, action, ctx),
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
             Action::Redo => _ = workbench.redo(),
@@ -274,6 +283,8 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Actions => panels::actions::show(self.editor, ui),
             Panel::Plots => panels::plots::show(self.editor, ui),
             Panel::History => panels::history::show(self.editor, ui),
+            Panel::Compare => panels::compare::show(self.editor, ui),
+            Panel::Notebook => panels::notebook::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

@@ -29,6 +29,10 @@ pub enum Panel {
     Plots,
     /// What was changed by hand, to be taken back.
     History,
+    /// Two pipelines beside each other.
+    Compare,
+    /// What was measured and kept.
+    Notebook,
 }
 
 impl Panel {
@@ -47,6 +51,8 @@ impl Panel {
             Self::Actions => "Actions",
             Self::Plots => "Plots",
             Self::History => "History",
+            Self::Compare => "Compare",
+            Self::Notebook => "Notebook",
         }
     }
 }
@@ -68,8 +74,9 @@ pub fn first() -> Tree<Panel> {
         Panel::Actions,
         Panel::History,
         Panel::Plots,
+        Panel::Notebook,
     ]);
-    let parameters = tabs(&[Panel::Pipeline, Panel::Scene]);
+    let parameters = tabs(&[Panel::Pipeline, Panel::Scene, Panel::Compare]);
     let passes = tabs(&[Panel::Passes]);
     let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
     let left = split(

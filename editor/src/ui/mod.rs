@@ -5,6 +5,7 @@
 
 pub mod actions;
 pub mod bench;
+pub mod compare_actions;
 pub mod editor;
 pub mod kept;
 pub mod layout;
@@ -24,6 +25,8 @@ use lightbench::assets::files::Files;
 use lightbench::render::GpuOptions;
 use lightbench::script::Settings;
 
+use workbench::reporting::WorkerOptions;
+
 /// What the editor opens with.
 #[derive(Clone, Debug)]
 pub struct EditorOptions {
@@ -41,6 +44,8 @@ pub struct EditorOptions {
     pub gpu: GpuOptions,
     /// The file of what is kept over restarts; without one nothing is.
     pub kept: Option<PathBuf>,
+    /// How processes that measure are started.
+    pub worker: WorkerOptions,
 }
 
 impl EditorOptions {
@@ -55,6 +60,7 @@ impl EditorOptions {
             pipeline_settings: Settings::new(),
             gpu: GpuOptions::default(),
             kept: None,
+            worker: WorkerOptions::default(),
         }
     }
 }

@@ -22,6 +22,7 @@ use lightbench_editor::ui::kept::Kept;
 use lightbench_editor::ui::layout::Panel;
 use lightbench_editor::ui::workbench::Workbench;
 use lightbench_editor::ui::workbench::history::Deed;
+use lightbench_editor::ui::workbench::reporting::WorkerOptions;
 use lightbench_editor::ui::{Editor, EditorOptions, theme};
 use tempfile::TempDir;
 
@@ -65,6 +66,10 @@ impl Bench {
         let renderer = WgpuTestRenderer::from_render_state(state);
         let options = EditorOptions {
             scene: "cornell_box".to_owned(),
+            worker: WorkerOptions {
+                program: Some(PathBuf::from(env!("CARGO_BIN_EXE_lightbench"))),
+                limits: None,
+            },
             ..EditorOptions::new(files.clone())
         };
         let mut workbench = Workbench::new(gpu, options, Arc::new(|| {}));
@@ -185,6 +190,11 @@ impl Bench {
     pub fn show(&mut self, panel: Panel) {
         self.harness.state_mut().show(panel);
         self.harness.run_steps(3);
+    }
+
+    /// The project's folder.
+    pub fn path(&self) -> &std::path::Path {
+        self._project.path()
     }
 
     /// Saves a file of the project.

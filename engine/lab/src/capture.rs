@@ -71,11 +71,28 @@ pub fn capture(
     renderer.set_frame_index(options.frame);
     let time = f64::from(options.frame) * STEP;
     let view = view_of(scene);
+    let picture = capture_through(renderer, scene, pipeline, &view, options.size, time)?;
+    progress.report(1.0)?;
+    Ok(picture)
+}
+
+/// Takes one picture of a scene as it stands, through a camera that need not be its own. `time` is in
+/// seconds since the scene began, for shaders.
+///
+/// # Errors
+/// When the size or the scene is beyond the device, or the device failed.
+pub fn capture_through(
+    renderer: &mut Renderer,
+    scene: &mut Scene,
+    pipeline: &mut Pipeline,
+    view: &View,
+    size: (u32, u32),
+    time: f64,
+) -> Result<Capture, RenderError> {
     let (world, assets) = (&mut scene.world, &scene.assets);
     let statistics = renderer
-        .render_whole(world, assets, pipeline, &view, options.size, time)?
+        .render_whole(world, assets, pipeline, view, size, time)?
         .clone();
-    progress.report(1.0)?;
     Ok(Capture {
         output: read_output(renderer, pipeline)?,
         hdr: read_hdr(renderer, pipeline)?,

@@ -1,5 +1,8 @@
 //! Textures back to the CPU.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+
 use half::f16;
 use wgpu::TextureFormat;
 
@@ -38,69 +41,122 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuErro
 /// # Errors
 /// As [`read_bytes`].
 pub fn read_slice(gpu: &Gpu, texture: &wgpu::Texture, slice: Slice) -> Result<Vec<u8>, GpuError> {
-    if texture.sample_count() > 1 {
-        return Err(GpuError::Driver(
-            "a target with several samples can't be read; read what it is resolved to".to_owned(),
-        ));
-    }
-    if matches!(
-        texture.format(),
-        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8
-    ) {
-        return Err(GpuError::Driver(
-            "depth of 24 bits can't be read; give the target the format `depth32float`".to_owned(),
-        ));
-    }
-    let side = |length: u32| (length >> slice.mip).max(1);
-    let (width, height) = (side(texture.width()), side(texture.height()));
-    let texel = aspect_bytes(texture.format());
-    let row = width * texel;
-    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("read-back"),
-        size: u64::from(padded) * u64::from(height),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = gpu
-        .device
-        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_texture_to_buffer(
-        wgpu::TexelCopyTextureInfo {
-            texture,
-            mip_level: slice.mip,
-            origin: wgpu::Origin3d {
-                x: 0,
-                y: 0,
-                z: slice.layer,
-            },
-            aspect: aspect(texture.format()),
-        },
-        wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(padded),
-                rows_per_image: None,
-            },
-        },
-        wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-    );
-    gpu.queue.submit([encoder.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+    let reading = Reading::begin(gpu, texture, slice)?;
     gpu.wait(TIMEOUT)?;
-    let view = buffer
-        .get_mapped_range(..)
-        .map_err(|error| GpuError::Driver(error.to_string()))?;
-    let mut bytes = Vec::with_capacity((row * height) as usize);
-    for line in view.chunks_exact(padded as usize) {
-        bytes.extend_from_slice(&line[..row as usize]);
+    reading.bytes()
+}
+
+/// A copy of a texture that is on its way to the CPU. It comes while the device is polled, as
+/// [`Renderer::poll`](crate::Renderer::poll) does, and nothing waits for it.
+#[derive(Debug)]
+pub struct Reading {
+    buffer: wgpu::Buffer,
+    state: Arc<AtomicU8>,
+    /// Bytes of a row, and from one row to the next.
+    row: u32,
+    padded: u32,
+    height: u32,
+}
+
+const ON_ITS_WAY: u8 = 0;
+const THERE: u8 = 1;
+const LOST: u8 = 2;
+
+impl Reading {
+    /// Begins to copy one mip level of one layer of a texture, as it is now.
+    ///
+    /// # Errors
+    /// When the device can't copy the texture.
+    pub fn begin(gpu: &Gpu, texture: &wgpu::Texture, slice: Slice) -> Result<Self, GpuError> {
+        if texture.sample_count() > 1 {
+            return Err(GpuError::Driver(
+                "a target with several samples can't be read; read what it is resolved to"
+                    .to_owned(),
+            ));
+        }
+        if matches!(
+            texture.format(),
+            TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8
+        ) {
+            return Err(GpuError::Driver(
+                "depth of 24 bits can't be read; give the target the format `depth32float`"
+                    .to_owned(),
+            ));
+        }
+        let side = |length: u32| (length >> slice.mip).max(1);
+        let (width, height) = (side(texture.width()), side(texture.height()));
+        let row = width * aspect_bytes(texture.format());
+        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read-back"),
+            size: u64::from(padded) * u64::from(height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo {
+                texture,
+                mip_level: slice.mip,
+                origin: wgpu::Origin3d {
+                    x: 0,
+                    y: 0,
+                    z: slice.layer,
+                },
+                aspect: aspect(texture.format()),
+            },
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let state = Arc::new(AtomicU8::new(ON_ITS_WAY));
+        let told = Arc::clone(&state);
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            let now = if result.is_ok() { THERE } else { LOST };
+            told.store(now, Ordering::Release);
+        });
+        Ok(Self {
+            buffer,
+            state,
+            row,
+            padded,
+            height,
+        })
     }
-    Ok(bytes)
+
+    /// Whether it has come, or never will: then [`Reading::bytes`] says which.
+    pub fn is_over(&self) -> bool {
+        self.state.load(Ordering::Acquire) != ON_ITS_WAY
+    }
+
+    /// The texels, row by row from the top without gaps.
+    ///
+    /// # Errors
+    /// Before it has come, or when the device failed.
+    pub fn bytes(&self) -> Result<Vec<u8>, GpuError> {
+        let view = self
+            .buffer
+            .get_mapped_range(..)
+            .map_err(|error| GpuError::Driver(error.to_string()))?;
+        let mut bytes = Vec::with_capacity((self.row * self.height) as usize);
+        for line in view.chunks_exact(self.padded as usize) {
+            bytes.extend_from_slice(&line[..self.row as usize]);
+        }
+        Ok(bytes)
+    }
 }
 
 /// Copies a texture to the CPU as floats.

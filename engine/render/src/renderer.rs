@@ -395,6 +395,11 @@ impl Renderer {
         self.index = index;
     }
 
+    /// What the shaders of the next frame see as `frame_index`.
+    pub fn frame_index(&self) -> u32 {
+        self.index
+    }
+
     /// The frame as it was last extracted.
     pub fn frame(&self) -> &Frame {
         &self.frame

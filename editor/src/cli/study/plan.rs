@@ -14,7 +14,9 @@ use lightbench::script::{Settings, list_pipelines};
 use super::scene_name;
 use crate::cli::arguments::{GpuArguments, SceneArguments, Size};
 use crate::cli::load::{self, Request, Scripts};
-use crate::cli::report::Usage;
+use crate::cli::report::{self, Usage};
+use crate::viewpoint::Viewpoint;
+use crate::viewpoint::plan::{Effort, ViewsError, plan as plan_of_views};
 
 /// What is swept where no scene is named.
 const DEFAULT_SWEEP: &str = "lights=4,16,64,256";
@@ -36,6 +38,11 @@ pub struct PlanArguments {
     /// or `camera`
     #[arg(long, value_name = "NAME=A,B,…")]
     sweep: Vec<String>,
+    /// A view that the editor has copied; given again, the same with another pipeline or other values.
+    /// Measures the pipelines of the views on what they show, in place of SCENE, --pipelines and --set
+    #[arg(long, value_name = "VIEW", conflicts_with_all = ["scenes", "pipelines", "set", "model", "size",
+        "start", "step", "samples"])]
+    view: Vec<Viewpoint>,
     /// The pipeline whose picture the others are compared with, or `traced` for the path tracer; the
     /// first pipeline without it
     #[arg(long, value_name = "PIPELINE")]
@@ -82,6 +89,9 @@ impl PlanArguments {
     /// # Errors
     /// Scripts that are not there or have mistakes, values that nobody takes, sweeps over nothing.
     pub fn plan(&self, files: &mut Files) -> anyhow::Result<Plan> {
+        if !self.view.is_empty() {
+            return self.plan_of_views(files);
+        }
         let pipelines = chosen(&self.pipelines, files)?;
         let mut scenes = self.scenes.clone();
         let mut sweeps = self.sweep.clone();
@@ -148,9 +158,49 @@ impl PlanArguments {
             start: self.start,
             processes: self.processes,
             seconds: self.seconds,
+            view: None,
             tuned: Vec::new(),
             outside: files.grants().to_vec(),
         })
+    }
+
+    fn plan_of_views(&self, files: &Files) -> anyhow::Result<Plan> {
+        let effort = Effort {
+            warmup: self.warmup,
+            frames: self.frames,
+            processes: self.processes,
+            seconds: self.seconds,
+        };
+        if !(self.seconds.is_finite() && self.seconds > 0.0) {
+            let text = format!("--seconds {}: it must be a number above 0", self.seconds);
+            return Err(Usage(text).into());
+        }
+        let plan = plan_of_views(files, &self.view, effort);
+        let mut plan = plan.map_err(|error| match error {
+            ViewsError::Problems(problems) => report::problems(files, problems),
+            other => anyhow::Error::from(Usage(format!("--view: {other}"))),
+        })?;
+        if let Some(title) = &self.title {
+            plan.title.clone_from(title);
+        }
+        if let Some(reference) = &self.reference {
+            let names: Vec<String> = plan.pipelines.iter().map(Choice::name).collect();
+            if reference != TRACED && !names.contains(reference) {
+                let hint = suggestion(reference, names.iter().map(String::as_str));
+                return Err(Usage(format!(
+                    "--reference {reference}: it is not measured; {}",
+                    hint.unwrap_or_else(|| format!("name one of {}", names.join(", ")))
+                ))
+                .into());
+            }
+            plan.reference.clone_from(reference);
+        }
+        for text in &self.sweep {
+            let axis =
+                Axis::read(text).map_err(|error| Usage(format!("--sweep {text}: {error}")))?;
+            plan.axes.push(axis);
+        }
+        Ok(plan)
     }
 
     fn axes(&self, sweeps: &[String], scripts: &Scripts) -> Result<Vec<Axis>, Usage> {

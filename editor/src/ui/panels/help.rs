@@ -6,7 +6,7 @@ use crate::ui::actions::{entries, key_text};
 use crate::ui::editor::Editor;
 
 /// What the mouse does in the viewport.
-const MOUSE: [(&str, &str); 11] = [
+const MOUSE: [(&str, &str); 12] = [
     ("Choose an entity", "click; with Ctrl more of them"),
     (
         "Choose by a box",
@@ -27,6 +27,7 @@ const MOUSE: [(&str, &str); 11] = [
     ("Zoom", "wheel"),
     ("Fly", "W A S D, E up, Q down, over the viewport"),
     ("Fly faster", "Shift"),
+    ("Move the split", "drag the line between A and B"),
 ];
 
 /// Draws the windows that are open.

@@ -29,6 +29,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                             Action::Tool(tool) => editor.viewport.handles.tool == tool,
                             Action::LocalAxes => editor.viewport.handles.local,
                             Action::Mark(mark) => editor.marks.has(mark),
+                            Action::Compare(action) => action.is_in_force(&editor.workbench),
                             _ => false,
                         };
                         let mut button = Button::new(entry.title).selected(mark);

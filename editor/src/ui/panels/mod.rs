@@ -1,6 +1,7 @@
 //! The panels of the window.
 
 pub mod actions;
+pub mod compare;
 pub mod console;
 pub mod entities;
 pub mod handles;
@@ -10,6 +11,7 @@ pub mod history;
 pub mod log;
 pub mod marks;
 pub mod menu;
+pub mod notebook;
 pub mod palette;
 pub mod parameters;
 pub mod passes;
@@ -19,5 +21,6 @@ pub mod select;
 pub mod status;
 pub mod targets;
 pub mod toolbar;
+pub mod view_text;
 pub mod viewport;
 mod widgets;

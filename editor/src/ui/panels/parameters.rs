@@ -44,6 +44,12 @@ pub fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
+/// Draws fields without a description. Returns the name of the one that changed, with the value that it
+/// is given, or `None` for its default.
+pub(super) fn edit(ui: &mut Ui, fields: &[Field]) -> Option<(String, Option<SettingValue>)> {
+    rows(ui, fields).map(|(name, change)| (name, change.value()))
+}
+
 /// Draws the parameters of the scene.
 pub fn scene(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;

@@ -11,7 +11,7 @@ use lightbench::script::SceneEvent;
 use lightbench::world::glam::{Vec2, Vec3};
 
 use super::handles::{self, Handles};
-use super::{heat_map, marks, select};
+use super::{compare, heat_map, marks, select};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::lens::Lens;
@@ -30,6 +30,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Viewport"));
     let lens = Lens::new(rect, editor.workbench.camera.view());
+    compare::interact(editor, ui, rect);
     let held =
         handles::interact(editor, ui, &response, &lens) || select_box(editor, ui, &response, &lens);
     if !held {
@@ -74,6 +75,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         select::show(ui, &lens, area);
     }
     probed_pixel(editor, ui, rect);
+    compare::over(editor, ui, rect);
     if let Some(pipeline) = editor.workbench.pipelines.shown_pipeline() {
         heat_map::legend(ui, rect, &pipeline.desc);
     }
@@ -318,7 +320,7 @@ fn loading(editor: &Editor, ui: &mut Ui, rect: Rect, has_picture: bool) {
 }
 
 /// A short line in a corner of the picture.
-fn note(ui: &Ui, rect: Rect, align: Align2, text: &str) {
+pub(super) fn note(ui: &Ui, rect: Rect, align: Align2, text: &str) {
     let palette = Palette::of(ui);
     let painter = ui.painter_at(rect);
     let inner = rect.shrink(10.0);

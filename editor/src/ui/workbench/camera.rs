@@ -6,6 +6,7 @@ use lightbench::render::View;
 use lightbench::world::glam::{Quat, Vec2, Vec3};
 
 use super::flat::{Flat, Side};
+use crate::viewpoint::Free;
 
 /// How near to straight up or down the camera may look, radians.
 const MAX_PITCH: f32 = 1.55;
@@ -94,17 +95,34 @@ impl CameraRig {
             // As the scene has it, roll included.
             return self.home;
         }
-        View {
-            view: View::look_at(
-                self.eye,
-                self.eye + self.forward(),
-                self.lens.fov_y,
-                self.lens.near,
-                self.lens.far,
-            )
-            .view,
-            ..self.lens
+        self.free().view()
+    }
+
+    /// Where it stands, as a view in words has it.
+    pub fn free(&self) -> Free {
+        Free {
+            eye: self.eye,
+            yaw: self.yaw,
+            pitch: self.pitch,
+            orbit: self.distance,
+            fov_y: self.lens.fov_y,
+            near: self.lens.near,
+            far: self.lens.far,
         }
+    }
+
+    /// Stands where a view in words says, and follows nothing.
+    pub fn stand(&mut self, free: Free) {
+        (self.eye, self.yaw, self.pitch) = (free.eye, free.yaw, free.pitch);
+        self.distance = free.orbit;
+        self.lens = free.view();
+        self.moved = true;
+        self.flat = None;
+    }
+
+    /// Shows a view without perspective.
+    pub fn show_flat(&mut self, flat: Flat) {
+        self.flat = Some(flat);
     }
 
     /// Position, metres.
@@ -193,7 +211,7 @@ impl CameraRig {
     }
 
     fn rotation(&self) -> Quat {
-        Quat::from_rotation_y(self.yaw) * Quat::from_rotation_x(self.pitch)
+        self.free().rotation()
     }
 
     fn forward(&self) -> Vec3 {
@@ -252,6 +270,18 @@ mod tests {
         rig.look(Vec2::ZERO);
         assert!(rig.is_moved());
         assert!(rig.view().view.abs_diff_eq(before, 1e-4));
+    }
+
+    #[test]
+    fn a_view_in_words_is_the_same_view() {
+        let mut rig = rig();
+        rig.orbit(Vec2::new(0.7, -0.2));
+        rig.pan(Vec2::new(0.3, 0.1));
+        let (view, free) = (rig.view(), rig.free());
+        let mut other = CameraRig::default();
+        other.stand(free);
+        assert_eq!(other.view(), view);
+        assert_eq!(other.free(), free);
     }
 
     #[test]

@@ -47,6 +47,13 @@ impl Clock {
         self.unseen = true;
     }
 
+    /// The scene has been brought to a moment.
+    pub fn set(&mut self, time: f64) {
+        self.time = time;
+        self.pending = 0.0;
+        self.unseen = false;
+    }
+
     /// One step further, also while paused.
     pub fn step(&mut self) {
         self.pending += STEP;

@@ -119,7 +119,19 @@ impl Workbench {
             self.canvas.drawn_at = Some(now);
             self.redraw(wanted);
         }
-        self.picture()
+        let picture = self.picture()?;
+        let texture = self.compared_picture(&picture.texture, now);
+        Some(Picture {
+            texture: texture.unwrap_or(picture.texture),
+            ..picture
+        })
+    }
+
+    /// What the viewport shows, as it was last drawn: the picture of A, or what is made of both.
+    pub fn shown_picture(&mut self) -> Option<wgpu::Texture> {
+        let picture = self.picture()?.texture;
+        let compared = self.compared_picture(&picture, Instant::now());
+        Some(compared.unwrap_or(picture))
     }
 
     /// Draws at full size whatever else is going on; for benchmarks.
@@ -143,6 +155,21 @@ impl Workbench {
     pub fn picture_is_current(&self) -> bool {
         let view = self.camera.view();
         !self.canvas.stale && self.canvas.drawn.is_none_or(|drawn| drawn.view == view)
+    }
+
+    /// Width and height of the viewport in pixels.
+    pub(super) fn viewport_size(&self) -> Option<(u32, u32)> {
+        Some(self.canvas.drawn?.size)
+    }
+
+    /// The factor between the viewport's pixels and those of the picture on screen.
+    pub(super) fn drawn_scale(&self) -> Option<f32> {
+        Some(self.canvas.drawn?.scale)
+    }
+
+    /// When something last moved or changed in the picture.
+    pub(super) fn moved_at(&self) -> Option<Instant> {
+        self.canvas.moved_at
     }
 
     /// Whether a scene and a pipeline are there to draw.
@@ -190,6 +217,9 @@ impl Workbench {
                     let at = self.canvas.moved_at?;
                     Some((at + REST).saturating_duration_since(now))
                 }),
+            self.comparing_due(now),
+            self.is_arriving().then_some(DEVICE),
+            (self.reporting.progress().is_some() || self.notebook.is_busy()).then_some(PROGRESS),
         ];
         soon.into_iter().flatten().min()
     }
@@ -204,6 +234,7 @@ impl Workbench {
     /// good one meanwhile.
     fn warm_up(&mut self, wanted: Drawn) {
         let size = Resolution::apply(wanted.size, wanted.scale);
+        self.warm_up_other(&wanted.view, size);
         let time = self.clock.time();
         let (Some(scene), Some(pipeline)) = (self.scenes.scene_mut(), self.pipelines.cold()) else {
             return;
@@ -226,6 +257,13 @@ impl Workbench {
     }
 
     fn redraw(&mut self, wanted: Drawn) {
+        let index = self.renderer.frame_index();
+        self.redraw_first(wanted);
+        let size = Resolution::apply(wanted.size, wanted.scale);
+        self.redraw_other(&wanted.view, size, index);
+    }
+
+    fn redraw_first(&mut self, wanted: Drawn) {
         let size = Resolution::apply(wanted.size, wanted.scale);
         let time = self.clock.time();
         let Some(scene) = self.scenes.scene_mut() else {

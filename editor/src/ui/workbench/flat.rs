@@ -61,7 +61,7 @@ pub struct Flat {
     /// Metres from the lower to the upper edge of the picture.
     pub height: f32,
     /// Metres in front of and behind the middle that are shown.
-    reach: f32,
+    pub reach: f32,
 }
 
 impl Flat {

@@ -7,6 +7,7 @@
 
 pub mod camera;
 pub mod clock;
+pub mod comparing;
 pub mod compiling;
 mod drawing;
 pub mod extent;
@@ -16,12 +17,15 @@ pub mod hand;
 pub mod history;
 pub mod library;
 pub mod log;
+pub mod notebook;
 pub mod opening;
 pub mod picking;
 pub mod pipelines;
 mod play;
 pub mod probing;
+pub mod reporting;
 pub mod resolution;
+mod results;
 mod running;
 pub mod scenes;
 pub mod selection;
@@ -29,6 +33,7 @@ mod setting;
 pub mod sight;
 pub mod timing;
 pub mod undo;
+mod viewing;
 mod watching;
 
 use std::collections::BTreeMap;
@@ -37,26 +42,28 @@ use std::time::{Duration, Instant};
 
 use lightbench::assets::files::Files;
 use lightbench::render::problem::Problems;
-use lightbench::render::{
-    FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
-};
+use lightbench::render::{FrameStatistics, Gpu, GpuOptions, Problem, Renderer, View, inspect};
 use lightbench::script::SceneEvent;
 use lightbench::script::overlays::Overlays;
 
 use self::camera::CameraRig;
 use self::clock::Clock;
+use self::comparing::Comparing;
 use self::drawing::Canvas;
 use self::history::History;
 use self::library::Library;
 use self::log::Log;
+use self::notebook::Notebook;
 use self::pipelines::{News, Pipelines};
 use self::play::Before;
 use self::probing::Probing;
+use self::reporting::{Reporting, WorkerOptions};
 use self::resolution::Resolution;
 use self::scenes::{Loaded, Scenes};
 use self::selection::Selection;
 use self::timing::Timings;
 use self::undo::Undo;
+use self::viewing::Arriving;
 use self::watching::Watch;
 use super::EditorOptions;
 
@@ -87,6 +94,10 @@ pub struct Workbench {
     noted_view: Option<View>,
     /// The camera of the scene through which a person wants to look, by its name.
     watched_camera: Option<String>,
+    /// The view to which the scene is on its way.
+    arriving: Option<Arriving>,
+    /// How processes that measure are started.
+    worker: WorkerOptions,
     /// The entities that are chosen.
     pub selection: Selection,
     /// Visited pipelines.
@@ -111,6 +122,12 @@ pub struct Workbench {
     pub history: History,
     /// What can be taken back.
     pub undo: Undo,
+    /// A second pipeline beside the first.
+    pub comparing: Comparing,
+    /// The report that is being made.
+    pub reporting: Reporting,
+    /// Measurements that were kept.
+    pub notebook: Notebook,
 }
 
 impl Workbench {
@@ -151,6 +168,11 @@ impl Workbench {
             probing: Probing::default(),
             history: History::default(),
             undo: Undo::default(),
+            comparing: Comparing::default(),
+            reporting: Reporting::default(),
+            notebook: Notebook::default(),
+            arriving: None,
+            worker: options.worker,
             overlays: BTreeMap::new(),
             before: None,
             ran_into_a_problem: false,
@@ -180,6 +202,7 @@ impl Workbench {
             self.files.clone(),
             self.wake.clone(),
         );
+        self.move_other();
         self.canvas = Canvas::default();
         self.probing = Probing::default();
         self.timings.reset();
@@ -217,6 +240,7 @@ impl Workbench {
 
     /// Loads another scene; until it is ready the present one stays.
     pub fn select_scene(&mut self, name: &str) {
+        self.arriving = None;
         self.scenes.select(name, None);
         self.scenes.poll();
         self.did("scene", format!("the scene {name}"));
@@ -231,6 +255,7 @@ impl Workbench {
             .flatten()
             .flat_map(|problems| problems.0.iter())
             .chain(drawing)
+            .chain(self.comparing.problems())
     }
 
     /// Chooses a target to look at, or none.
@@ -266,6 +291,7 @@ impl Workbench {
         let mut paths: Vec<String> = all.into_iter().map(|entry| entry.path).collect();
         paths.push(format!("{}/", lightbench::script::PIPELINES));
         self.pipelines.changed(&paths);
+        self.other_files_changed(&paths);
         self.scenes.reload();
         self.library.refresh(&self.files, &self.wake);
     }
@@ -284,7 +310,9 @@ impl Workbench {
             }
         }
         self.take_pipelines();
+        self.take_other_pipelines();
         self.take_scene();
+        self.arrive();
         for error in self.library.poll(&self.files, &self.wake) {
             self.log.error(error);
         }
@@ -304,11 +332,15 @@ impl Workbench {
             self.selection.refresh(scene, self.scenes.swaps());
         }
         self.take_measurements();
+        self.judge(now);
+        self.take_report();
+        self.take_notes();
     }
 
     /// Tells that project files changed: only what depends on them is built again.
     pub fn files_changed(&mut self, paths: &[String]) {
         self.pipelines.changed(paths);
+        self.other_files_changed(paths);
         self.scenes.changed(paths);
         if paths.iter().any(|path| path.starts_with("scripts/")) {
             self.library.refresh(&self.files, &self.wake);
@@ -318,6 +350,7 @@ impl Workbench {
         };
         if paths.iter().any(looks) {
             self.renderer.inspector().forget_shaders();
+            self.comparing.forget_shaders();
             self.canvas.invalidate();
         }
     }
@@ -352,12 +385,17 @@ impl Workbench {
     fn take_scene(&mut self) {
         match self.scenes.poll() {
             None => {}
-            Some(Loaded::Failed(problems)) => self.log_problems(&problems),
+            Some(Loaded::Failed(problems)) => {
+                self.arriving = None;
+                self.log_problems(&problems);
+            }
             Some(Loaded::Scene { again }) => self.new_scene(again),
         }
     }
 
     fn new_scene(&mut self, again: bool) {
+        // A view begins at the beginning.
+        let again = again && !self.is_arriving();
         self.renderer.reset_scene();
         self.timings = Timings::default();
         let name = self.scenes.shown().unwrap_or_default().to_owned();
@@ -390,7 +428,11 @@ impl Workbench {
             if let Some(distance) = self.typical_distance() {
                 self.camera.suit(distance);
             }
-            self.follow_pipeline_choice();
+            if self.is_arriving() {
+                self.begin_arrival();
+            } else {
+                self.follow_pipeline_choice();
+            }
         }
         self.canvas.invalidate();
     }
@@ -410,41 +452,6 @@ impl Workbench {
         let first = View::from_world(&scene.world).unwrap_or_default();
         let home = self.watched_view().unwrap_or(first);
         self.camera.follow(home);
-    }
-
-    fn take_measurements(&mut self) {
-        match self.renderer.poll() {
-            Ok(results) => {
-                if let Some(pipeline) = self.pipelines.shown_pipeline()
-                    && pipeline.grow(results)
-                {
-                    self.canvas.invalidate();
-                }
-                for measured in results {
-                    self.timings.measured(measured);
-                    if let Some((scale, ms)) = self.canvas.measured(measured) {
-                        self.resolution.measured(scale, ms);
-                    }
-                }
-            }
-            Err(error) => self.device_failed(error),
-        }
-        self.take_probed();
-        for warning in self.renderer.take_warnings() {
-            self.log.warn(warning);
-        }
-    }
-
-    fn device_failed(&mut self, error: GpuError) {
-        if let GpuError::Lost(reason) = &error {
-            if self.lost.is_none() {
-                self.log
-                    .error(format!("The graphics device was lost: {reason}"));
-            }
-            self.lost = Some(reason.clone());
-        } else {
-            self.log.error(error.to_string());
-        }
     }
 
     fn log_problems(&mut self, problems: &Problems) {

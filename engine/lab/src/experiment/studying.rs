@@ -110,6 +110,7 @@ fn plan(task: &StudyTask, outside: &[std::path::PathBuf]) -> Result<Plan, Labora
         start: task.start,
         processes: task.processes,
         seconds: task.seconds,
+        view: None,
         tuned: Vec::new(),
         outside: outside.to_vec(),
     })

@@ -11,11 +11,12 @@ mod points;
 mod processes;
 mod store;
 pub mod tuning;
+mod viewing;
 mod views;
 mod worker;
 
 pub use join::{JoinError, drop_stale, join};
-pub use model::{Axis, CAMERA, Choice, Plan, Point, SIZE, START, Study, TRACED, Tuned};
+pub use model::{Axis, CAMERA, Choice, FixedView, Plan, Point, SIZE, START, Study, TRACED, Tuned};
 pub use points::{MOST_POINTS, PlanError, Planned, Shard};
 pub use processes::{Launch, Line, ProcessError, Told, in_words, run_processes};
 pub use store::{Part, Store, StoreError};

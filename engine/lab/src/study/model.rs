@@ -1,5 +1,7 @@
 //! What a study asks, and what it found.
 
+use glam::Mat4;
+use lightbench_render::View;
 use serde::{Deserialize, Serialize};
 
 use crate::report::{Comparison, Parameter};
@@ -37,6 +39,9 @@ pub struct Plan {
     pub processes: u32,
     /// Seconds for one pipeline at one point, over all processes.
     pub seconds: f64,
+    /// A camera in place of the scenes' own ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<FixedView>,
     /// Values of pipelines' parameters that were chosen because they are the fastest at a point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tuned: Vec<Tuned>,
@@ -44,6 +49,42 @@ pub struct Plan {
     /// of those in the first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<std::path::PathBuf>,
+}
+
+/// A camera that stands still, whatever the scene does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FixedView {
+    /// World to view, column by column.
+    pub view: [f32; 16],
+    /// Full vertical angle, radians.
+    pub fov_y: f32,
+    /// Near plane, metres.
+    pub near: f32,
+    /// Far plane, metres; none where it is infinitely far.
+    pub far: Option<f32>,
+}
+
+impl From<View> for FixedView {
+    fn from(view: View) -> Self {
+        Self {
+            view: view.view.to_cols_array(),
+            fov_y: view.fov_y,
+            near: view.near,
+            far: view.far.is_finite().then_some(view.far),
+        }
+    }
+}
+
+impl From<FixedView> for View {
+    fn from(fixed: FixedView) -> Self {
+        Self {
+            view: Mat4::from_cols_array(&fixed.view),
+            fov_y: fixed.fov_y,
+            near: fixed.near,
+            far: fixed.far.unwrap_or(f32::INFINITY),
+        }
+    }
 }
 
 /// The reference that is no pipeline: the path tracer.

@@ -6,15 +6,14 @@ use lightbench_assets::cache::Cache;
 use lightbench_assets::files::Files;
 use lightbench_assets::{Cancelled, Progress};
 use lightbench_render::{
-    Compiler, Gpu, GpuError, GpuOptions, Pipeline, PipelineDesc, Place, Problem, Problems,
-    Renderer, Variants, View,
+    Compiler, Gpu, GpuError, GpuOptions, Pipeline, PipelineDesc, Problems, Renderer, Variants, View,
 };
 use lightbench_script::{Limits, LogLine, Scene, Settings, load_pipeline, load_scene_within};
-use lightbench_world::{Camera, Name};
 
 use super::model::{Plan, TRACED};
 use super::points::{PlanError, Planned};
 use super::store::Store;
+use super::viewing::{look_through, stand};
 use super::views;
 use crate::diff::DiffOptions;
 use crate::measure::{
@@ -228,6 +227,8 @@ impl Worker<'_> {
         let mut scene = loaded?;
         if let Some(camera) = &point.camera {
             look_through(&mut scene, camera)?;
+        } else if let Some(view) = self.plan.view {
+            stand(&mut scene, &view.into())?;
         }
         Ok(scene)
     }
@@ -452,36 +453,6 @@ fn rename(result: &mut PipelineResult, label: Option<&str>) {
     let Some(label) = label else { return };
     result.title = format!("{} ({label})", result.label());
     label.clone_into(&mut result.name);
-}
-
-/// Makes one camera the only one that is active.
-fn look_through(scene: &mut Scene, name: &str) -> Result<(), StudyError> {
-    let wanted = scene.world.find(name);
-    let wanted = wanted.filter(|entity| scene.world.get::<Camera>(*entity).is_some());
-    let Some(wanted) = wanted else {
-        let names = scene.world.columns::<Name>();
-        let named = names.text().iter().zip(names.entities());
-        let cameras: Vec<String> = named
-            .filter(|(_, entity)| scene.world.get::<Camera>(**entity).is_some())
-            .map(|(name, _)| format!("`{name}`"))
-            .collect();
-        let place = Place::new(scene.path.as_str(), 0, 0);
-        let mut problem = Problem::new(place, format!("the scene has no camera `{name}`"));
-        problem.hint = Some(match &cameras[..] {
-            [] => "none of its cameras has a name".to_owned(),
-            cameras => format!("its cameras are {}", cameras.join(", ")),
-        });
-        return Err(Problems::from(problem).into());
-    };
-    let cameras: Vec<_> = scene.world.columns::<Camera>().entities().to_vec();
-    for entity in cameras {
-        if let Some(camera) = scene.world.get::<Camera>(entity) {
-            let active = entity == wanted;
-            // It is there, so it can be written.
-            let _ = scene.world.set(entity, Camera { active, ..camera });
-        }
-    }
-    Ok(())
 }
 
 fn in_words(settings: &Settings) -> String {

@@ -4,6 +4,7 @@
 //! All of it happens on the GPU between the passes of one frame, and what is to be read comes back
 //! some frames later, so that nothing waits. The shaders are in `shaders/inspect/`.
 
+mod combine;
 mod look;
 mod probe;
 mod read;
@@ -19,6 +20,7 @@ use crate::gpu::Gpu;
 use crate::problem::Problem;
 use crate::targets::Targets;
 
+pub use combine::{Combination, Combiner};
 pub use look::{FirstInvalid, Part, Shown, Unknown, find_pass, last_writer};
 pub use probe::{Invalid, PixelValue, ProbeRequest, Probed, TexelValue};
 pub use read::read_any;
@@ -37,6 +39,8 @@ pub struct Inspector {
     prober: Prober,
     files: Option<Files>,
     problem: Option<Problem>,
+    /// Whether it looks at no frame for now.
+    resting: bool,
 }
 
 impl Inspector {
@@ -47,6 +51,7 @@ impl Inspector {
             prober: Prober::new(gpu),
             files: None,
             problem: None,
+            resting: false,
         }
     }
 
@@ -61,6 +66,12 @@ impl Inspector {
     pub fn probe(&mut self, files: &Files, request: ProbeRequest) {
         self.files = Some(files.clone());
         self.prober.ask(request);
+    }
+
+    /// Looks at no frame until it is told to go on; what it was asked for waits. Who draws with two
+    /// pipelines in turn looks into the frames of one.
+    pub fn rest(&mut self, resting: bool) {
+        self.resting = resting;
     }
 
     /// Reads the shaders again where they are needed next.
@@ -97,7 +108,7 @@ impl Inspector {
 
     /// Whether it looks at a target after this pass, which then must run.
     pub fn wants(&self, pass: usize) -> bool {
-        self.request().is_some_and(|request| request.pass == pass)
+        !self.resting && self.request().is_some_and(|request| request.pass == pass)
     }
 
     /// Called before each pass that runs.
@@ -115,16 +126,20 @@ impl Inspector {
 
     /// Called after the last pass, before the frame is submitted.
     pub fn end_frame(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        self.prober.end_frame(encoder);
+        if !self.resting {
+            self.prober.end_frame(encoder);
+        }
     }
 
     /// Called after the frame was submitted.
     pub fn submitted(&mut self) {
-        self.prober.submitted();
+        if !self.resting {
+            self.prober.submitted();
+        }
     }
 
     fn during(&mut self, look: impl FnOnce(&mut Self, &Files) -> Result<(), Problem>) {
-        let Some(files) = self.files.take() else {
+        let Some(files) = self.files.take_if(|_| !self.resting) else {
             return;
         };
         if let Err(problem) = look(self, &files) {
