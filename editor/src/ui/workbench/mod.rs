@@ -5,6 +5,7 @@
 //! last good picture goes on. [`Workbench::tick`] takes in what they finished and
 //! [`Workbench::draw`] draws if something changed.
 
+pub mod beside;
 pub mod camera;
 pub mod clock;
 pub mod compiling;
@@ -15,19 +16,25 @@ pub mod flat;
 pub mod hand;
 pub mod history;
 pub mod library;
+pub mod lighting;
+mod lines;
 pub mod log;
+pub mod measuring;
 pub mod opening;
 pub mod picking;
 pub mod pipelines;
 mod play;
 pub mod probing;
 pub mod resolution;
+mod returning;
 mod running;
 pub mod scenes;
 pub mod selection;
 mod setting;
 pub mod sight;
+pub mod stepping;
 pub mod timing;
+pub mod trends;
 pub mod undo;
 mod watching;
 
@@ -36,26 +43,30 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lightbench::assets::files::Files;
+use lightbench::render::overlay::OVERLAY_SHADERS;
 use lightbench::render::problem::Problems;
-use lightbench::render::{
-    FrameStatistics, Gpu, GpuError, GpuOptions, Problem, Renderer, View, inspect,
-};
+use lightbench::render::{FrameStatistics, Gpu, GpuOptions, Problem, Renderer, View, inspect};
 use lightbench::script::SceneEvent;
 use lightbench::script::overlays::Overlays;
 
+use self::beside::Beside;
 use self::camera::CameraRig;
 use self::clock::Clock;
 use self::drawing::Canvas;
 use self::history::History;
 use self::library::Library;
+use self::lighting::Lighting;
 use self::log::Log;
+use self::measuring::Measuring;
 use self::pipelines::{News, Pipelines};
 use self::play::Before;
 use self::probing::Probing;
 use self::resolution::Resolution;
 use self::scenes::{Loaded, Scenes};
 use self::selection::Selection;
+use self::stepping::Stop;
 use self::timing::Timings;
+use self::trends::Trends;
 use self::undo::Undo;
 use self::watching::Watch;
 use super::EditorOptions;
@@ -87,6 +98,18 @@ pub struct Workbench {
     noted_view: Option<View>,
     /// The camera of the scene through which a person wants to look, by its name.
     watched_camera: Option<String>,
+    /// Where in the frame the picture stops.
+    stop: Option<Stop>,
+    /// The lines over the picture.
+    lines: Option<lightbench::render::overlay::Lines>,
+    /// How the values of the target that is looked at spread.
+    pub measuring: Measuring,
+    /// The light at the probed pixel.
+    pub lighting: Lighting,
+    /// The probed pixel under another pipeline.
+    pub beside: Beside,
+    /// What frames cost over time.
+    pub trends: Trends,
     /// The entities that are chosen.
     pub selection: Selection,
     /// Visited pipelines.
@@ -157,6 +180,12 @@ impl Workbench {
             noted_time: None,
             noted_view: None,
             watched_camera: None,
+            stop: None,
+            lines: None,
+            measuring: Measuring::default(),
+            lighting: Lighting::default(),
+            beside: Beside::default(),
+            trends: Trends::default(),
             selection: Selection::default(),
         };
         this.library.refresh(&this.files, &this.wake);
@@ -182,6 +211,10 @@ impl Workbench {
         );
         self.canvas = Canvas::default();
         self.probing = Probing::default();
+        self.measuring = Measuring::default();
+        self.beside = Beside::default();
+        // Asked for again with the next frame.
+        self.lines = None;
         self.timings.reset();
         self.lost = None;
         self.inspect(request);
@@ -294,6 +327,9 @@ impl Workbench {
                 self.begin_play(clock);
             }
             self.update_scene(step);
+            while let Some(step) = self.clock.next_step() {
+                self.update_scene(step);
+            }
         }
         if let Some(what) = self.noted_time.take() {
             self.did("time", what);
@@ -314,9 +350,13 @@ impl Workbench {
             self.library.refresh(&self.files, &self.wake);
         }
         let looks = |path: &String| {
-            path.starts_with(inspect::INSPECT_SHADERS) || path.starts_with("shaders/lib/")
+            let folders = [inspect::INSPECT_SHADERS, OVERLAY_SHADERS, "shaders/lib/"];
+            folders.iter().any(|folder| path.starts_with(folder))
         };
         if paths.iter().any(looks) {
+            self.renderer.overlay().forget_shaders();
+            // What could not be drawn is asked for again.
+            self.lines = None;
             self.renderer.inspector().forget_shaders();
             self.canvas.invalidate();
         }
@@ -410,41 +450,6 @@ impl Workbench {
         let first = View::from_world(&scene.world).unwrap_or_default();
         let home = self.watched_view().unwrap_or(first);
         self.camera.follow(home);
-    }
-
-    fn take_measurements(&mut self) {
-        match self.renderer.poll() {
-            Ok(results) => {
-                if let Some(pipeline) = self.pipelines.shown_pipeline()
-                    && pipeline.grow(results)
-                {
-                    self.canvas.invalidate();
-                }
-                for measured in results {
-                    self.timings.measured(measured);
-                    if let Some((scale, ms)) = self.canvas.measured(measured) {
-                        self.resolution.measured(scale, ms);
-                    }
-                }
-            }
-            Err(error) => self.device_failed(error),
-        }
-        self.take_probed();
-        for warning in self.renderer.take_warnings() {
-            self.log.warn(warning);
-        }
-    }
-
-    fn device_failed(&mut self, error: GpuError) {
-        if let GpuError::Lost(reason) = &error {
-            if self.lost.is_none() {
-                self.log
-                    .error(format!("The graphics device was lost: {reason}"));
-            }
-            self.lost = Some(reason.clone());
-        } else {
-            self.log.error(error.to_string());
-        }
     }
 
     fn log_problems(&mut self, problems: &Problems) {

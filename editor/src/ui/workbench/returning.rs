@@ -1,0 +1,51 @@
+//! What comes back from the device some frames later.
+
+use std::time::Instant;
+
+use lightbench::render::GpuError;
+
+use super::Workbench;
+
+impl Workbench {
+    pub(super) fn take_measurements(&mut self) {
+        match self.renderer.poll() {
+            Ok(results) => {
+                let mut results = results.to_vec();
+                self.measured_beside(&mut results);
+                let results = results.as_slice();
+                if let Some(pipeline) = self.pipelines.shown_pipeline()
+                    && pipeline.grow(results)
+                {
+                    self.canvas.invalidate();
+                }
+                for measured in results {
+                    if self.timings.measured(measured) {
+                        self.trends.measured(Instant::now(), measured);
+                    }
+                    if let Some((scale, ms)) = self.canvas.measured(measured) {
+                        self.resolution.measured(scale, ms);
+                    }
+                }
+            }
+            Err(error) => self.device_failed(error),
+        }
+        self.take_probed();
+        self.take_measured();
+        self.take_lighting();
+        for warning in self.renderer.take_warnings() {
+            self.log.warn(warning);
+        }
+    }
+
+    pub(super) fn device_failed(&mut self, error: GpuError) {
+        if let GpuError::Lost(reason) = &error {
+            if self.lost.is_none() {
+                self.log
+                    .error(format!("The graphics device was lost: {reason}"));
+            }
+            self.lost = Some(reason.clone());
+        } else {
+            self.log.error(error.to_string());
+        }
+    }
+}
