@@ -63,14 +63,8 @@ fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let texel = vec3i(vec2i(pixel.xy), inspection.slice);
     let value = inspected::load_value(texel, inspection.sample);
 #ifdef DEPTH
-    // Depth is reversed: 1 at the near plane, 0 at the far one.
-    var inverse = value.r;
-    if inspection.far > 0.0 {
-        let ratio = inspection.near / inspection.far;
-        inverse = ratio + value.r * (1.0 - ratio);
-    }
     // Nothing was drawn at infinity: it is as far as the range shows.
-    let metres = inspection.near / max(inverse, 1e-12);
+    let metres = inspected::metres(value.r, inspection.near, inspection.far);
     return show(vec4f(vec3f(metres), 1.0));
 #else
     return show(value);

@@ -95,6 +95,17 @@ fn load_value(texel: vec3i, sample: i32) -> vec4f {
     return load_sample(texel, max(sample, 0));
 }
 
+// The distance along the view of a depth, which is reversed: 1 at the near plane, 0 at the far one. A
+// far plane at infinity is given as 0.
+fn metres(depth: f32, near: f32, far: f32) -> f32 {
+    var inverse = depth;
+    if far > 0.0 {
+        let ratio = near / far;
+        inverse = ratio + depth * (1.0 - ratio);
+    }
+    return near / max(inverse, 1e-12);
+}
+
 // Width and height of the slice.
 fn slice_size() -> vec2u {
     return textureDimensions(inspected_target).xy;

@@ -7,6 +7,7 @@ use super::editor::Editor;
 use super::layout::Panel;
 use super::panels::handles::Tool;
 use super::panels::marks::Mark;
+use super::panels::pipelines::favourites;
 use super::workbench::flat::Side;
 
 /// Something that a person can ask for without an argument.
@@ -46,6 +47,12 @@ pub enum Action {
     SelectNone,
     /// Back to the scene's camera.
     ResetCamera,
+    /// The picture as it is after the next pass of the frame.
+    PassAfter,
+    /// The picture as it is after the pass before.
+    PassBefore,
+    /// The picture after all passes.
+    WholeFrame,
     /// The pipeline after the present one.
     NextPipeline,
     /// The pipeline before the present one.
@@ -177,10 +184,20 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
                 entry(Action::Mark(Mark::Handles), "Handles", None),
             ],
             &[
+                entry(Action::Mark(Mark::Edges), "Wireframe", None),
+                entry(Action::Mark(Mark::Normals), "Vertex normals", None),
+                entry(
+                    Action::Mark(Mark::OfChosen),
+                    "Lines of what is chosen alone",
+                    None,
+                ),
+            ],
+            &[
                 entry(Action::Toggle(Panel::Passes), "Passes", None),
                 entry(Action::Toggle(Panel::Targets), "Targets", None),
                 entry(Action::Toggle(Panel::Pixel), "Pixel", None),
                 entry(Action::Toggle(Panel::Pipeline), "Pipeline parameters", None),
+                entry(Action::Toggle(Panel::Pipelines), "All pipelines", None),
                 entry(Action::Toggle(Panel::Scene), "Scene parameters", None),
                 entry(Action::Toggle(Panel::Entities), "Entities", None),
                 entry(Action::Toggle(Panel::Log), "Log", None),
@@ -199,18 +216,33 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
     ),
     (
         "Pipeline",
-        &[&[
-            entry(
-                Action::PreviousPipeline,
-                "Previous pipeline",
-                key(Key::OpenBracket),
-            ),
-            entry(
-                Action::NextPipeline,
-                "Next pipeline",
-                key(Key::CloseBracket),
-            ),
-        ]],
+        &[
+            &[
+                entry(
+                    Action::PassBefore,
+                    "Picture after the pass before",
+                    command(Key::OpenBracket),
+                ),
+                entry(
+                    Action::PassAfter,
+                    "Picture after the next pass",
+                    command(Key::CloseBracket),
+                ),
+                entry(Action::WholeFrame, "Picture after all passes", None),
+            ],
+            &[
+                entry(
+                    Action::PreviousPipeline,
+                    "Previous pipeline",
+                    key(Key::OpenBracket),
+                ),
+                entry(
+                    Action::NextPipeline,
+                    "Next pipeline",
+                    key(Key::CloseBracket),
+                ),
+            ],
+        ],
     ),
     ("Compare", compare_actions::MENU),
     (
@@ -231,7 +263,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
     ),
 ];
 
-/// The keys of the first nine pipelines.
+/// The keys of favourite pipelines.
 const NUMBERS: [Key; 9] = [
     Key::Num1,
     Key::Num2,
@@ -255,10 +287,19 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
 /// A key as people write it: signs as such, others by name.
 pub fn key_text(ctx: &egui::Context, shortcut: &KeyboardShortcut) -> String {
     match shortcut.logical_key {
-        Key::OpenBracket => "[".to_owned(),
-        Key::CloseBracket => "]".to_owned(),
+        Key::OpenBracket => with_modifiers(ctx, shortcut, "["),
+        Key::CloseBracket => with_modifiers(ctx, shortcut, "]"),
         Key::Period => ".".to_owned(),
         _ => ctx.format_shortcut(shortcut),
+    }
+}
+
+/// A sign behind the keys that are held with it.
+fn with_modifiers(ctx: &egui::Context, shortcut: &KeyboardShortcut, sign: &str) -> String {
+    let named = ctx.format_shortcut(shortcut);
+    match named.rsplit_once('+') {
+        Some((held, _)) => format!("{held}+{sign}"),
+        None => sign.to_owned(),
     }
 }
 
@@ -304,10 +345,9 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
     let chosen = NUMBERS
         .iter()
         .position(|key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, *key)));
-    if let Some(index) = chosen {
-        let name = editor.workbench.library.pipelines.get(index);
-        if let Some(name) = name.map(|entry| entry.name.clone()) {
-            editor.workbench.select_pipeline(&name);
-        }
+    if let Some(index) = chosen
+        && let Some(name) = favourites(editor)[index].take()
+    {
+        editor.workbench.select_pipeline(&name);
     }
 }

@@ -172,7 +172,12 @@ impl Editor {
             Action::Redo => _ = workbench.redo(),
             Action::Tool(tool) => self.viewport.handles.tool = tool,
             Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
+            // Out of the walk through the frame first.
+            Action::SelectNone if workbench.is_stopped() => workbench.stop_after(None),
             Action::SelectNone => workbench.selection.clear(),
+            Action::PassAfter => workbench.stop_by(1),
+            Action::PassBefore => workbench.stop_by(-1),
+            Action::WholeFrame => workbench.stop_after(None),
             Action::NextPipeline => self.select_beside(1),
             Action::PreviousPipeline => self.select_beside(-1),
             Action::Reload => workbench.reload(),
@@ -272,10 +277,11 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
         ui.set_clip_rect(inner.expand(2.0));
         let ui = &mut ui;
         match panel {
-            Panel::Targets => panels::targets::show(self.editor, ui),
+            Panel::Targets => panels::targets::show(self.editor, ui, self.now),
             Panel::Pixel => panels::pixel::show(self.editor, ui),
             Panel::Passes => panels::passes::show(self.editor, ui, self.now),
             Panel::Pipeline => panels::parameters::pipeline(self.editor, ui),
+            Panel::Pipelines => panels::pipelines::show(self.editor, ui),
             Panel::Scene => panels::parameters::scene(self.editor, ui),
             Panel::Entities => panels::entities::show(self.editor, ui),
             Panel::Log => panels::log::show(self.editor, ui),

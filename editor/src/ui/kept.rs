@@ -1,5 +1,6 @@
 //! What the editor keeps over restarts, in a file of the user's settings.
 
+use std::collections::BTreeMap;
 use std::env;
 use std::path::PathBuf;
 
@@ -20,6 +21,8 @@ pub struct Kept {
     pub console: Vec<String>,
     /// Scenes of late, the last one first: names, or paths of files outside the project.
     pub scenes: Vec<String>,
+    /// The pipelines of number keys from 1, where somebody gave a key to one.
+    pub favourites: BTreeMap<usize, String>,
     /// What other versions of the program have written.
     others: Map<String, Value>,
 }
@@ -59,10 +62,21 @@ impl Kept {
             _ => Vec::new(),
         };
         let (console, scenes) = (texts("console"), texts("scenes"));
+        let favourites = match others.remove("favourites") {
+            Some(Value::Object(map)) => map
+                .into_iter()
+                .filter_map(|(key, name)| {
+                    let key = key.parse().ok().filter(|key| (1..=9).contains(key))?;
+                    Some((key, name.as_str()?.to_owned()))
+                })
+                .collect(),
+            _ => BTreeMap::new(),
+        };
         Self {
             path,
             console,
             scenes,
+            favourites,
             others,
         }
     }
@@ -95,6 +109,16 @@ impl Kept {
         self.write()
     }
 
+    /// Gives a number key, from 1 to 9, to a pipeline, which has no other one then.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The key is there until the program ends.
+    pub fn give_key(&mut self, key: usize, pipeline: &str) -> Result<(), String> {
+        self.favourites.retain(|_, known| known != pipeline);
+        self.favourites.insert(key, pipeline.to_owned());
+        self.write()
+    }
+
     fn write(&self) -> Result<(), String> {
         let Some(path) = &self.path else {
             return Ok(());
@@ -102,6 +126,11 @@ impl Kept {
         let mut all = self.others.clone();
         all.insert("console".to_owned(), self.console.clone().into());
         all.insert("scenes".to_owned(), self.scenes.clone().into());
+        if !self.favourites.is_empty() {
+            let favourites = self.favourites.iter();
+            let favourites = favourites.map(|(key, name)| (key.to_string(), name.clone().into()));
+            all.insert("favourites".to_owned(), Value::Object(favourites.collect()));
+        }
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
             format!(
@@ -171,5 +200,26 @@ mod tests {
         }
         assert_eq!(kept.scenes.len(), MOST_SCENES);
         assert_eq!(kept.scenes[0], "19");
+    }
+
+    #[test]
+    fn number_keys_are_kept_and_a_pipeline_has_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("editor.json");
+        let mut kept = Kept::read(Some(path.clone()));
+        kept.give_key(2, "a").unwrap();
+        kept.give_key(3, "b").unwrap();
+        kept.give_key(9, "a").unwrap();
+        kept.give_key(3, "c").unwrap();
+        let again = Kept::read(Some(path.clone())).favourites;
+        let pairs = [(3, "c".to_owned()), (9, "a".to_owned())];
+        assert_eq!(again, BTreeMap::from(pairs));
+        std::fs::write(
+            &path,
+            "{\"favourites\": {\"0\": \"a\", \"x\": \"b\", \"4\": 5, \"5\": \"d\"}}",
+        )
+        .unwrap();
+        let pairs = [(5, "d".to_owned())];
+        assert_eq!(Kept::read(Some(path)).favourites, BTreeMap::from(pairs));
     }
 }

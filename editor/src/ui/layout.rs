@@ -15,6 +15,8 @@ pub enum Panel {
     Passes,
     /// Parameters of the pipeline.
     Pipeline,
+    /// All pipelines, and the keys of favourites.
+    Pipelines,
     /// Parameters of the scene.
     Scene,
     /// The entities, and the fields of one.
@@ -44,6 +46,7 @@ impl Panel {
             Self::Pixel => "Pixel",
             Self::Passes => "Passes",
             Self::Pipeline => "Pipeline",
+            Self::Pipelines => "All pipelines",
             Self::Scene => "Scene",
             Self::Entities => "Entities",
             Self::Log => "Log",
@@ -76,7 +79,12 @@ pub fn first() -> Tree<Panel> {
         Panel::Plots,
         Panel::Notebook,
     ]);
-    let parameters = tabs(&[Panel::Pipeline, Panel::Scene, Panel::Compare]);
+    let parameters = tabs(&[
+        Panel::Pipeline,
+        Panel::Scene,
+        Panel::Pipelines,
+        Panel::Compare,
+    ]);
     let passes = tabs(&[Panel::Passes]);
     let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
     let left = split(

@@ -20,13 +20,17 @@ pub enum Place {
     Viewport,
     /// The target viewer.
     Targets,
+    /// What a pass left, in the viewport.
+    Pass,
+    /// Lines over the picture.
+    Lines,
 }
 
 /// Hands textures to the painter that draws the widgets.
 pub struct Screen {
     device: wgpu::Device,
     painter: Arc<RwLock<egui_wgpu::Renderer>>,
-    shown: [Option<Shown>; 2],
+    shown: [Option<Shown>; 4],
 }
 
 impl Screen {
@@ -35,7 +39,7 @@ impl Screen {
         Self {
             device,
             painter,
-            shown: [None, None],
+            shown: [const { None }; 4],
         }
     }
 

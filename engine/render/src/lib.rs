@@ -25,6 +25,7 @@ pub mod inspect;
 pub mod layout;
 pub mod life;
 mod needs;
+pub mod overlay;
 mod parameters;
 pub mod pipeline;
 pub mod problem;

@@ -16,6 +16,7 @@ use crate::frame::{Frame, FrameRequest};
 use crate::gpu::{Gpu, GpuError};
 use crate::inspect::Inspector;
 use crate::layout::SceneLayout;
+use crate::overlay::Overlay;
 use crate::pipeline::Pipeline;
 use crate::queries::{Measured, Queries};
 use crate::record::{Recording, is_cold, measures, record, warm};
@@ -40,6 +41,7 @@ pub struct Renderer {
     frame: Frame,
     queries: Queries,
     inspector: Inspector,
+    overlay: Overlay,
     /// Submissions that the device has not done yet.
     in_flight: Arc<AtomicUsize>,
     statistics: FrameStatistics,
@@ -80,10 +82,12 @@ impl Renderer {
         let scene = Scene::new(&gpu, &layout);
         let queries = Queries::new(&gpu);
         let inspector = Inspector::new(&gpu);
+        let overlay = Overlay::new(&gpu, &layout);
         Self {
             scene,
             queries,
             inspector,
+            overlay,
             layout,
             gpu,
             frame: Frame::default(),
@@ -141,6 +145,8 @@ impl Renderer {
         time: f64,
     ) -> Result<&FrameStatistics, RenderError> {
         self.prepare(world, assets, pipeline, view, size, time)?;
+        let visible = self.frame.visible_rows();
+        self.overlay.gather(world, &self.scene.meshes, visible);
         pipeline.begin_frame(self.serial, self.index);
         self.views.draw(self.index, self.frame.data.view_projection);
         let started = Instant::now();
@@ -227,6 +233,11 @@ impl Renderer {
             }
         }
         self.queries.resolve(&mut encoder);
+        if let Some(targets) = pipeline.targets() {
+            let buffers = self.scene.meshes.buffers();
+            self.overlay
+                .draw(buffers, &group, targets.size, &mut encoder);
+        }
         self.inspector.end_frame(&mut encoder);
         self.submit(encoder);
         self.queries.submitted();
@@ -375,6 +386,11 @@ impl Renderer {
     /// Shows a target as it is after a pass: see [`Inspector`].
     pub fn inspector(&mut self) -> &mut Inspector {
         &mut self.inspector
+    }
+
+    /// Draws lines over pictures: see [`Overlay`].
+    pub fn overlay(&mut self) -> &mut Overlay {
+        &mut self.overlay
     }
 
     /// Whether the passes of the frames from now on are timed and their fragments and counters counted,

@@ -58,7 +58,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
                         ui.label(RichText::new(key_text(ui.ctx(), shortcut)).monospace());
                         ui.end_row();
                     }
-                    ui.label("Choose a pipeline");
+                    ui.label("Choose a favourite pipeline");
                     ui.label(RichText::new("1 to 9").monospace());
                     ui.end_row();
                 });

@@ -6,6 +6,7 @@ use crate::ui::actions::{Action, MENUS, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
 use crate::ui::panels::palette::scene_title;
+use crate::ui::panels::pipelines::{favourites, key_of};
 
 /// Draws the menu bar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -65,14 +66,15 @@ fn scenes_of_late(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// All pipelines with the keys of the first nine.
+/// All pipelines with the keys of the favourites.
 fn pipelines(editor: &mut Editor, ui: &mut Ui) {
     let selected = editor.workbench.pipelines.selected().to_owned();
+    let favourites = favourites(editor);
     let mut wanted = None;
-    for (index, entry) in editor.workbench.library.pipelines.iter().enumerate() {
+    for entry in &editor.workbench.library.pipelines {
         let mut button = Button::new(&entry.title).selected(entry.name == selected);
-        if index < 9 {
-            button = button.shortcut_text((index + 1).to_string());
+        if let Some(key) = key_of(&favourites, &entry.name) {
+            button = button.shortcut_text(key.to_string());
         }
         let response = ui.add(button);
         if response.clicked() {

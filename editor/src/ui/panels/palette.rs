@@ -2,6 +2,7 @@
 
 use egui::{Button, Context, Id, Key, Modal, Modifiers, ScrollArea, TextEdit, Ui};
 
+use super::pipelines::{favourites, key_of};
 use crate::ui::actions::{Action, entries, key_text};
 use crate::ui::editor::Editor;
 
@@ -40,6 +41,7 @@ fn all(editor: &Editor, ctx: &Context) -> Vec<Line> {
             deed: Deed::Act(entry.action),
         });
     let library = &editor.workbench.library;
+    let favourites = favourites(editor);
     let recent = editor.kept.scenes.iter().map(|name| Line {
         title: format!("Recent scene: {}", scene_title(editor, name)),
         key: String::new(),
@@ -50,18 +52,11 @@ fn all(editor: &Editor, ctx: &Context) -> Vec<Line> {
         key: String::new(),
         deed: Deed::Scene(entry.name.clone()),
     });
-    let pipelines = library
-        .pipelines
-        .iter()
-        .enumerate()
-        .map(|(index, entry)| Line {
-            title: format!("Pipeline: {}", entry.title),
-            key: match index {
-                0..9 => (index + 1).to_string(),
-                _ => String::new(),
-            },
-            deed: Deed::Pipeline(entry.name.clone()),
-        });
+    let pipelines = library.pipelines.iter().map(|entry| Line {
+        title: format!("Pipeline: {}", entry.title),
+        key: key_of(&favourites, &entry.name).map_or_else(String::new, |key| key.to_string()),
+        deed: Deed::Pipeline(entry.name.clone()),
+    });
     actions
         .chain(recent)
         .chain(scenes)

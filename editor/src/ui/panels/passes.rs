@@ -6,6 +6,7 @@ use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 use egui_extras::{Column, TableBuilder};
 use lightbench::render::PassStatistics;
 
+use super::pass_graph::{self, PassGraph};
 use super::widgets::{MISSING, bytes, count, ms, short_count, sparkline};
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
@@ -15,20 +16,23 @@ const REFRESH: Duration = Duration::from_millis(250);
 
 /// One row.
 #[derive(Clone, Debug, Default)]
-struct Row {
-    name: String,
-    kind: &'static str,
-    gpu_ms: Option<f64>,
-    cpu_ms: Option<f64>,
+pub(super) struct Row {
+    pub name: String,
+    pub kind: &'static str,
+    pub gpu_ms: Option<f64>,
+    pub cpu_ms: Option<f64>,
     fragments: Option<u64>,
     vertices: Option<u64>,
-    cost: PassStatistics,
+    pub cost: PassStatistics,
 }
 
 /// What the panel shows at the moment.
 #[derive(Default)]
 pub struct PassesPanel {
-    rows: Vec<Row>,
+    /// The graph, where that is shown instead of the list.
+    pub(super) graph: PassGraph,
+    as_graph: bool,
+    pub(super) rows: Vec<Row>,
     /// Name and median of each system.
     systems: Vec<(&'static str, Option<f64>)>,
     /// What each counter of the pipeline counts, and its value; then lights without a place.
@@ -39,6 +43,12 @@ pub struct PassesPanel {
 }
 
 impl PassesPanel {
+    /// The GPU time of the slowest pass.
+    pub(super) fn slowest(&self) -> f64 {
+        let times = self.rows.iter().filter_map(|row| row.gpu_ms);
+        times.fold(0.0_f64, f64::max)
+    }
+
     fn refresh(&mut self, editor: &mut crate::ui::workbench::Workbench, now: Instant) {
         let shown = editor.pipelines.shown().unwrap_or_default().to_owned();
         let due = self.refreshed.is_none_or(|at| now - at >= REFRESH);
@@ -57,6 +67,7 @@ impl PassesPanel {
         let Some(pipeline) = editor.pipelines.shown_pipeline() else {
             return;
         };
+        self.graph.follow(&pipeline.desc);
         let counters = pipeline.desc.counters.iter().enumerate();
         self.counters = counters
             .map(|(index, counter)| {
@@ -91,6 +102,19 @@ impl PassesPanel {
 /// Draws the pass list.
 pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     editor.passes.refresh(&mut editor.workbench, now);
+    ui.horizontal(|ui| {
+        let as_graph = &mut editor.passes.as_graph;
+        ui.selectable_value(as_graph, false, "List");
+        ui.selectable_value(as_graph, true, "Graph");
+    });
+    if editor.passes.as_graph {
+        pass_graph::show(editor, ui);
+    } else {
+        list(editor, ui);
+    }
+}
+
+fn list(editor: &Editor, ui: &mut Ui) {
     let panel = &editor.passes;
     let workbench = &editor.workbench;
     let palette = Palette::of(ui);
@@ -106,8 +130,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
 
     totals(editor, ui, palette);
     ui.add_space(4.0);
-    let slowest = panel.rows.iter().filter_map(|row| row.gpu_ms);
-    let slowest = slowest.fold(0.0_f64, f64::max);
+    let slowest = panel.slowest();
     let height = 20.0;
     ScrollArea::horizontal().show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

@@ -1,8 +1,9 @@
 //! What each pass did to one pixel.
 
-use egui::{RichText, Ui};
+use egui::{RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
 
+use super::pixel_light;
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
 
@@ -38,11 +39,23 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     if let Some(text) = &probing.invalid {
         ui.label(text);
     }
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        values(editor, ui);
+        if editor.workbench.probing.pixel.is_some() {
+            pixel_light::show(editor, ui);
+        }
+    });
+}
+
+/// What each pass did to each target.
+fn values(editor: &Editor, ui: &mut Ui) {
+    let probing = &editor.workbench.probing;
     let palette = Palette::of(ui);
     ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     let row = ui.text_style_height(&egui::TextStyle::Monospace) + 3.0;
     let table = TableBuilder::new(ui)
         .striped(true)
+        .vscroll(false)
         .column(Column::auto().at_least(70.0))
         .column(Column::auto().at_least(70.0))
         .column(Column::auto().at_least(60.0))

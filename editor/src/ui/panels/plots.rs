@@ -1,10 +1,11 @@
-//! Curves that the scene's scripts plot over time.
+//! Curves over time: what the scene's scripts plot, and what frames cost.
 
 use egui::{Align2, Color32, FontId, Pos2, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 use lightbench::script::plots::Plot;
 
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
+use crate::ui::workbench::trends::Trend;
 
 /// Colours that are told apart by every kind of colour blindness (Okabe and Ito 2008), without black.
 const COLORS: [Color32; 7] = [
@@ -20,6 +21,8 @@ const COLORS: [Color32; 7] = [
 /// What the panel remembers from frame to frame.
 #[derive(Debug, Default)]
 pub struct PlotsPanel {
+    /// What frames cost, or without it what scripts plot.
+    trend: Option<Trend>,
     /// Names of curves that somebody has hidden.
     hidden: Vec<String>,
 }
@@ -87,10 +90,16 @@ fn nearest(plot: &Plot, time: f64) -> Option<(f64, f64)> {
 
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    let plots = match editor.workbench.scenes.scene() {
-        Some(scene) => scene.plots(),
-        None => Vec::new(),
+    choose(editor, ui);
+    let plots = match (editor.plots.trend, editor.workbench.scenes.scene()) {
+        (Some(trend), _) => editor.workbench.trends.curves(trend).to_vec(),
+        (None, Some(scene)) => scene.plots(),
+        (None, None) => Vec::new(),
     };
+    if plots.is_empty() && editor.plots.trend.is_some() {
+        ui.label(RichText::new("Each frame that is drawn adds to curves here.").weak());
+        return;
+    }
     if plots.is_empty() {
         let text = "A script of the scene that calls plot(\"name\", value) in each step draws a curve \
                     here.";
@@ -116,6 +125,23 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         .filter(|(_, plot)| !hidden.contains(&plot.name))
         .collect();
     chart(ui, &shown);
+}
+
+/// Whose curves are drawn.
+fn choose(editor: &mut Editor, ui: &mut Ui) {
+    let trend = &mut editor.plots.trend;
+    ui.horizontal_wrapped(|ui| {
+        ui.selectable_value(trend, None, "Scripts");
+        for (choice, title) in Trend::ALL {
+            ui.selectable_value(trend, Some(choice), title);
+        }
+        if trend.is_some() {
+            let about = "Forgets all curves of frames.";
+            if ui.button("Clear").on_hover_text(about).clicked() {
+                editor.workbench.trends.clear();
+            }
+        }
+    });
 }
 
 fn chart(ui: &mut Ui, shown: &[(usize, &Plot)]) {

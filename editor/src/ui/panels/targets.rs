@@ -1,11 +1,14 @@
 //! Any target as it is after any pass.
 
+use std::time::Instant;
+
 use egui::{Color32, DragValue, Rect, RichText, Sense, TextureOptions, Ui, pos2};
 use lightbench::render::PipelineDesc;
 use lightbench::render::description::Shape;
 use lightbench::render::inspect::{Aspect, Channels, ColorMap, Inspection};
 use wgpu::Texture;
 
+use super::histogram::{self, Histogram};
 use super::widgets::{bytes, combo};
 use crate::ui::editor::Editor;
 use crate::ui::screen::Place;
@@ -14,6 +17,8 @@ use crate::ui::workbench::Workbench;
 /// What was chosen in the panel.
 #[derive(Default)]
 pub struct TargetsPanel {
+    /// How the histogram is drawn.
+    pub(super) histogram: Histogram,
     /// After which pass; the last one where none is chosen.
     pass: Option<String>,
     target: Option<String>,
@@ -35,10 +40,27 @@ const MAPS: [(ColorMap, &str); 3] = [
     (ColorMap::FalseColor, "False colour"),
 ];
 
+impl TargetsPanel {
+    /// Shows a target as it is after a pass.
+    pub(super) fn look(&mut self, workbench: &mut Workbench, pass: usize, target: &str) {
+        let far = workbench.far_shown();
+        let Some(desc) = workbench.pipelines.shown_pipeline().map(|p| &p.desc) else {
+            return;
+        };
+        let Some(request) = Inspection::suited(desc, pass, target, far) else {
+            return;
+        };
+        self.pass = desc.passes.get(pass).map(|pass| pass.name.clone());
+        self.target = Some(target.to_owned());
+        self.pipeline.clone_from(&desc.name);
+        workbench.inspect(Some(request));
+    }
+}
+
 /// Draws the target viewer.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
+pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     let workbench = &mut editor.workbench;
-    let far = far_of(workbench);
+    let far = workbench.far_shown();
     let Some(desc) = workbench.pipelines.shown_pipeline().map(|p| p.desc.clone()) else {
         ui.label(RichText::new("No pipeline is ready.").weak());
         return;
@@ -54,23 +76,18 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     if let Some(request) = &mut request {
         let texture = workbench.target_texture(&request.target);
         part(ui, request, &desc, texture.as_ref(), far);
-        how(ui, request, &desc, far);
+        how(ui, request, &desc, far, &mut workbench.measuring.automatic);
     }
     if request != before {
         workbench.inspect(request.clone());
     }
     if let Some(request) = &request {
+        histogram::show(editor, ui, request, now);
         picture(editor, ui, &desc, request);
     } else {
         let text = "Choose a target to see it as it is after a pass.";
         ui.label(RichText::new(text).weak());
     }
-}
-
-/// The distance at which depth is shown brightest.
-fn far_of(workbench: &Workbench) -> f32 {
-    let distance = workbench.typical_distance().unwrap_or(5.0);
-    (distance * 3.0).clamp(0.1, 1e6)
 }
 
 /// Which target, after which pass.
@@ -195,7 +212,7 @@ fn part(
 }
 
 /// Channels, map and range.
-fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
+fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32, automatic: &mut bool) {
     let Some(target) = desc.target(&request.target) else {
         return;
     };
@@ -225,7 +242,10 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
                 }
             },
         );
+        let about = "The range goes from the least to the greatest value that is shown.";
+        ui.checkbox(automatic, "Automatic").on_hover_text(about);
         let label = ui.label(if depth { "Range, m" } else { "Range" });
+        let before = (request.low, request.high);
         let speed = f64::from((request.high - request.low).abs().max(1e-3)) * 0.01;
         let low = DragValue::new(&mut request.low)
             .speed(speed)
@@ -235,6 +255,10 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
             .speed(speed)
             .max_decimals(3);
         ui.add(high).labelled_by(label.id);
+        if before != (request.low, request.high) {
+            // Who sets an end does not want it to move.
+            *automatic = false;
+        }
         if ui
             .button("Suit")
             .on_hover_text("The range that suits the format.")
@@ -242,6 +266,7 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32) {
             && let Some(suited) = Inspection::suited(desc, request.pass, &request.target, far)
         {
             *request = suited;
+            *automatic = false;
         }
     });
 }

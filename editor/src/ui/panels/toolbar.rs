@@ -2,11 +2,13 @@
 
 use egui::{Button, DragValue, RichText, Ui};
 
+use super::pipelines::{favourites, key_of};
 use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
 use crate::ui::panels::handles::Tool;
 use crate::ui::theme::Palette;
+use crate::ui::workbench::clock::{RATES, SPEEDS};
 use crate::ui::workbench::flat::Side;
 use crate::ui::workbench::sight::Sight;
 
@@ -54,19 +56,20 @@ fn scene(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn pipeline(editor: &mut Editor, ui: &mut Ui) {
+    let favourites = favourites(editor);
     let workbench = &mut editor.workbench;
     let selected = workbench.pipelines.selected().to_owned();
     let mut wanted = None;
     let title = workbench.library.pipeline_title(&selected);
     let response = widgets::combo(ui, "Pipeline", title, 190.0, |ui| {
-        for (index, entry) in workbench.library.pipelines.iter().enumerate() {
+        for entry in &workbench.library.pipelines {
             let mut text = RichText::new(&entry.title);
             if entry.problem.is_some() {
                 text = text.color(Palette::of(ui).error);
             }
             let mut button = Button::selectable(entry.name == selected, text);
-            if index < 9 {
-                button = button.shortcut_text((index + 1).to_string());
+            if let Some(key) = key_of(&favourites, &entry.name) {
+                button = button.shortcut_text(key.to_string());
             }
             let response = ui.add(button);
             if response.clicked() {
@@ -101,11 +104,25 @@ fn time(editor: &mut Editor, ui: &mut Ui) {
     let time = editor.workbench.clock.time();
     let label = ui.label("Speed");
     let speed = DragValue::new(&mut editor.workbench.clock.speed)
-        .range(0.0..=10.0)
+        .range(SPEEDS)
         .speed(0.01)
         .fixed_decimals(2)
         .suffix(" x");
     ui.add(speed).labelled_by(label.id);
+    let rate = &mut editor.workbench.clock.rate;
+    let words = |rate: Option<u32>| match rate {
+        None => "as drawn".to_owned(),
+        Some(rate) => format!("1/{rate} s"),
+    };
+    let steps = widgets::combo(ui, "Steps", &words(*rate), 66.0, |ui| {
+        for choice in std::iter::once(None).chain(RATES.map(Some)) {
+            ui.selectable_value(rate, choice, words(choice));
+        }
+    });
+    steps.on_hover_text(
+        "How far the scene goes in one step: as long as each frame takes, or always the same, which \
+         gives the same motion on every machine.",
+    );
     ui.label(RichText::new(format!("{time:9.3} s")).monospace());
 }
 

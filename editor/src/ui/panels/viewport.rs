@@ -11,7 +11,8 @@ use lightbench::script::SceneEvent;
 use lightbench::world::glam::{Vec2, Vec3};
 
 use super::handles::{self, Handles};
-use super::{compare, heat_map, marks, select};
+use super::marks::Mark;
+use super::{compare, heat_map, marks, select, stepping};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::lens::Lens;
@@ -53,6 +54,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
 
     let pixels = rect.size() * ui.ctx().pixels_per_point();
     let size = (pixels.x.round() as u32, pixels.y.round() as u32);
+    let over = editor.marks;
+    let [edges, normals, alone] =
+        [Mark::Edges, Mark::Normals, Mark::OfChosen].map(|mark| over.has(mark));
+    editor.workbench.draw_lines(edges, normals, alone);
     let picture = editor.workbench.draw(size, now);
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, CornerRadius::ZERO, ui.visuals().extreme_bg_color);
@@ -63,6 +68,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         let id = editor
             .screen
             .show(Place::Viewport, &picture.texture, options);
+        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+        painter.image(id, rect, whole, Color32::WHITE);
+    }
+    stepping::show(editor, ui, rect);
+    if let Some(lines) = editor.workbench.lines_picture() {
+        let options = TextureOptions::LINEAR;
+        let id = editor.screen.show(Place::Lines, &lines, options);
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         painter.image(id, rect, whole, Color32::WHITE);
     }

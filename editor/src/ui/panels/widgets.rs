@@ -23,6 +23,22 @@ pub fn combo(
     combo.show_ui(ui, entries).response.labelled_by(name.id)
 }
 
+/// A combo box that says what it is to those who can't see what it stands beside.
+pub fn combo_of(
+    ui: &mut Ui,
+    label: &str,
+    selected: &str,
+    width: f32,
+    entries: impl FnOnce(&mut Ui),
+) -> Response {
+    let combo = ComboBox::from_id_salt(label)
+        .selected_text(selected)
+        .width(width);
+    let response = combo.show_ui(ui, entries).response;
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, label));
+    response
+}
+
 /// A count with thin groups of three digits.
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -80,8 +96,19 @@ pub fn ms(value: Option<f64>) -> String {
 /// The last values as a line, from 0 to `top`.
 pub fn sparkline(ui: &mut Ui, size: egui::Vec2, series: &Series, top: f64, color: Color32) {
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-    let painter = ui.painter_at(rect);
-    painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
+    let back = ui.visuals().extreme_bg_color;
+    draw_sparkline(&ui.painter_at(rect), rect, series, top, (color, back));
+}
+
+/// The same at a place of its own.
+pub fn draw_sparkline(
+    painter: &egui::Painter,
+    rect: egui::Rect,
+    series: &Series,
+    top: f64,
+    (color, back): (Color32, Color32),
+) {
+    painter.rect_filled(rect, 2.0, back);
     let count = series.values().len();
     if count < 2 || top <= 0.0 {
         return;

@@ -109,6 +109,7 @@ impl Workbench {
             _ => self.resolution.scale(moving),
         };
         let wanted = Drawn { view, size, scale };
+        self.follow_stop();
         self.warm_up(wanted);
         let held = self.canvas.drawn_at.is_some_and(|at| now - at < HOLD);
         let held = held && (self.pipelines.is_renewing() || self.scenes.is_renewing());
@@ -118,6 +119,8 @@ impl Workbench {
         {
             self.canvas.drawn_at = Some(now);
             self.redraw(wanted);
+        } else if self.has_room() {
+            self.go_on_beside();
         }
         let picture = self.picture()?;
         let texture = self.compared_picture(&picture.texture, now);
@@ -206,6 +209,8 @@ impl Workbench {
             (ready && (self.canvas.stale || self.canvas.again) && self.canvas.problem.is_none())
                 .then_some(soonest),
             (self.timings.is_waiting() || self.probing.is_waiting()).then_some(RESULTS),
+            (self.measuring.is_waiting() || self.beside.is_waiting()).then_some(RESULTS),
+            self.lighting.is_waiting().then_some(PROGRESS),
             (self.scenes.shown().is_some() && self.pipelines.is_warming()).then_some(DEVICE),
             (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
                 .then_some(PROGRESS),
@@ -297,8 +302,15 @@ impl Workbench {
                 }
                 self.canvas.drawn = Some(wanted);
                 self.canvas.problem = None;
-                if let Some(problem) = self.renderer.inspector().take_problem() {
-                    self.log.problem(&problem);
+                let passes = self.pipelines.shown_pipeline();
+                let passes = passes.map_or(&[][..], |pipeline| &pipeline.desc.passes);
+                let names = passes.iter().map(|pass| pass.name.as_str());
+                let statistics = &self.canvas.statistics;
+                self.trends.submitted(Instant::now(), statistics, names);
+                let looked = self.renderer.inspector().take_problem();
+                let lined = self.renderer.overlay().take_problem();
+                for problem in looked.iter().chain(&lined) {
+                    self.log.problem(problem);
                 }
             }
             Err(RenderError::Gpu(error)) => self.device_failed(error),

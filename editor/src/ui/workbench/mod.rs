@@ -5,6 +5,7 @@
 //! last good picture goes on. [`Workbench::tick`] takes in what they finished and
 //! [`Workbench::draw`] draws if something changed.
 
+pub mod beside;
 pub mod camera;
 pub mod clock;
 pub mod comparing;
@@ -16,7 +17,10 @@ pub mod flat;
 pub mod hand;
 pub mod history;
 pub mod library;
+pub mod lighting;
+mod lines;
 pub mod log;
+pub mod measuring;
 pub mod notebook;
 pub mod opening;
 pub mod picking;
@@ -25,13 +29,15 @@ mod play;
 pub mod probing;
 pub mod reporting;
 pub mod resolution;
-mod results;
+mod returning;
 mod running;
 pub mod scenes;
 pub mod selection;
 mod setting;
 pub mod sight;
+pub mod stepping;
 pub mod timing;
+pub mod trends;
 pub mod undo;
 mod viewing;
 mod watching;
@@ -41,18 +47,22 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lightbench::assets::files::Files;
+use lightbench::render::overlay::OVERLAY_SHADERS;
 use lightbench::render::problem::Problems;
 use lightbench::render::{FrameStatistics, Gpu, GpuOptions, Problem, Renderer, View, inspect};
 use lightbench::script::SceneEvent;
 use lightbench::script::overlays::Overlays;
 
+use self::beside::Beside;
 use self::camera::CameraRig;
 use self::clock::Clock;
 use self::comparing::Comparing;
 use self::drawing::Canvas;
 use self::history::History;
 use self::library::Library;
+use self::lighting::Lighting;
 use self::log::Log;
+use self::measuring::Measuring;
 use self::notebook::Notebook;
 use self::pipelines::{News, Pipelines};
 use self::play::Before;
@@ -61,7 +71,9 @@ use self::reporting::{Reporting, WorkerOptions};
 use self::resolution::Resolution;
 use self::scenes::{Loaded, Scenes};
 use self::selection::Selection;
+use self::stepping::Stop;
 use self::timing::Timings;
+use self::trends::Trends;
 use self::undo::Undo;
 use self::viewing::Arriving;
 use self::watching::Watch;
@@ -98,6 +110,18 @@ pub struct Workbench {
     arriving: Option<Arriving>,
     /// How processes that measure are started.
     worker: WorkerOptions,
+    /// Where in the frame the picture stops.
+    stop: Option<Stop>,
+    /// The lines over the picture.
+    lines: Option<lightbench::render::overlay::Lines>,
+    /// How the values of the target that is looked at spread.
+    pub measuring: Measuring,
+    /// The light at the probed pixel.
+    pub lighting: Lighting,
+    /// The probed pixel under another pipeline.
+    pub beside: Beside,
+    /// What frames cost over time.
+    pub trends: Trends,
     /// The entities that are chosen.
     pub selection: Selection,
     /// Visited pipelines.
@@ -179,6 +203,12 @@ impl Workbench {
             noted_time: None,
             noted_view: None,
             watched_camera: None,
+            stop: None,
+            lines: None,
+            measuring: Measuring::default(),
+            lighting: Lighting::default(),
+            beside: Beside::default(),
+            trends: Trends::default(),
             selection: Selection::default(),
         };
         this.library.refresh(&this.files, &this.wake);
@@ -205,6 +235,10 @@ impl Workbench {
         self.move_other();
         self.canvas = Canvas::default();
         self.probing = Probing::default();
+        self.measuring = Measuring::default();
+        self.beside = Beside::default();
+        // Asked for again with the next frame.
+        self.lines = None;
         self.timings.reset();
         self.lost = None;
         self.inspect(request);
@@ -322,6 +356,9 @@ impl Workbench {
                 self.begin_play(clock);
             }
             self.update_scene(step);
+            while let Some(step) = self.clock.next_step() {
+                self.update_scene(step);
+            }
         }
         if let Some(what) = self.noted_time.take() {
             self.did("time", what);
@@ -346,9 +383,13 @@ impl Workbench {
             self.library.refresh(&self.files, &self.wake);
         }
         let looks = |path: &String| {
-            path.starts_with(inspect::INSPECT_SHADERS) || path.starts_with("shaders/lib/")
+            let folders = [inspect::INSPECT_SHADERS, OVERLAY_SHADERS, "shaders/lib/"];
+            folders.iter().any(|folder| path.starts_with(folder))
         };
         if paths.iter().any(looks) {
+            self.renderer.overlay().forget_shaders();
+            // What could not be drawn is asked for again.
+            self.lines = None;
             self.renderer.inspector().forget_shaders();
             self.comparing.forget_shaders();
             self.canvas.invalidate();

@@ -192,9 +192,21 @@ impl Pipelines {
     ///
     /// A heat map stays on when the pipeline changes.
     pub fn select(&mut self, name: &str) {
+        let other = self.share_heat_map(name);
+        self.selected = name.to_owned();
+        let slot = self.slots.entry(name.to_owned()).or_default();
+        if !other && slot.pipeline.is_some() {
+            self.shown = Some(name.to_owned());
+        }
+        if other || (slot.newest().is_none() || slot.stale) && slot.pending.is_none() {
+            self.request(name, true);
+        }
+    }
+
+    /// Gives a pipeline the heat map of the selected one. Says whether it had another.
+    fn share_heat_map(&mut self, name: &str) -> bool {
         let before = self.slots.get(&self.selected);
         let heat_map = before.map_or_else(Settings::new, |slot| heat_map_of(&slot.settings));
-        self.selected = name.to_owned();
         let slot = self.slots.entry(name.to_owned()).or_default();
         let other = heat_map_of(&slot.settings) != heat_map;
         if other {
@@ -205,11 +217,44 @@ impl Pipelines {
             }
             // What was built shows something else.
             slot.stale = true;
-        } else if slot.pipeline.is_some() {
-            self.shown = Some(name.to_owned());
         }
+        other
+    }
+
+    /// Builds a pipeline that is drawn beside the selected one, unless it is built already.
+    pub fn build_beside(&mut self, name: &str) {
+        let other = self.share_heat_map(name);
+        let slot = self.slots.entry(name.to_owned()).or_default();
         if other || (slot.newest().is_none() || slot.stale) && slot.pending.is_none() {
-            self.request(name, true);
+            self.request(name, false);
+        }
+    }
+
+    /// The newest state of a pipeline that is drawn beside the selected one; none while it is built.
+    ///
+    /// # Errors
+    /// Its first mistake.
+    pub fn beside(&mut self, name: &str) -> Result<Option<&mut Pipeline>, String> {
+        let Some(slot) = self.slots.get_mut(name) else {
+            return Ok(None);
+        };
+        if slot.pending.is_some() || slot.stale {
+            return Ok(None);
+        }
+        if let Some(problem) = slot.problems.as_ref().and_then(|known| known.0.first()) {
+            return Err(problem.to_string());
+        }
+        Ok(slot.next.as_mut().or(slot.pipeline.as_mut()))
+    }
+
+    /// Gives back the memory that a pipeline took to be drawn beside the one on screen.
+    pub fn release_beside(&mut self, name: &str) {
+        if self.shown.as_deref() == Some(name) || self.selected == name {
+            return;
+        }
+        if let Some(slot) = self.slots.get_mut(name) {
+            let built = slot.next.iter_mut().chain(&mut slot.pipeline);
+            built.for_each(Pipeline::release_targets);
         }
     }
 

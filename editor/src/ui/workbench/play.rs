@@ -51,9 +51,9 @@ impl Workbench {
         let Some(before) = self.before.take() else {
             return;
         };
-        let speed = self.clock.speed;
+        let (speed, rate) = (self.clock.speed, self.clock.rate);
         self.clock = before.clock.held();
-        self.clock.speed = speed;
+        (self.clock.speed, self.clock.rate) = (speed, rate);
         let Some(scene) = self.scenes.scene_mut() else {
             return;
         };

@@ -5,6 +5,7 @@ use lightbench::render::inspect::{
 };
 
 use super::Workbench;
+use super::beside::Results;
 
 /// What one pass did to one part of one target, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub struct Written {
 }
 
 /// What is known of one frame.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Probing {
     /// The pixel that was asked for last, from the upper left corner of the picture.
     pub pixel: Option<(u32, u32)>,
@@ -30,6 +31,8 @@ pub struct Probing {
     pub size: Option<(u32, u32)>,
     /// What the passes did to it, in their order.
     pub values: Vec<Written>,
+    /// What the pipeline leaves in the pixel.
+    pub results: Results,
     /// The result of the last search for values that are no numbers, in words.
     pub invalid: Option<String>,
     /// Of which pipeline all that is.
@@ -54,6 +57,10 @@ impl Workbench {
         });
         self.probing.size = self.drawn_size();
         self.probing.pixel = Some(pixel);
+        if self.lighting.on {
+            self.light_pixel();
+        }
+        self.draw_beside();
     }
 
     /// Asks the same of the place that was asked for last, which is another pixel where the picture
@@ -101,6 +108,13 @@ impl Workbench {
             self.probing.waiting &= self.renderer.inspector().is_probing();
             return;
         };
+        if self.renderer.inspector().is_probing() {
+            // Something else was asked for meanwhile.
+            self.canvas.repeat();
+        }
+        if self.take_beside(&probed) {
+            return;
+        }
         let Some(desc) = self.pipelines.shown_pipeline().map(|p| &p.desc) else {
             return;
         };
@@ -109,6 +123,7 @@ impl Workbench {
             pass.map_or_else(String::new, |pass| pass.name.clone())
         };
         if probed.pixel.is_some() {
+            self.probing.results = Results::of(desc, &probed.values);
             let values = probed.values.iter();
             self.probing.values = values.map(|value| in_words(value, pass_of)).collect();
         }

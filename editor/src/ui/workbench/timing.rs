@@ -133,14 +133,15 @@ impl Timings {
         self.expected.push_back(frame);
     }
 
-    /// Takes in what came back from the GPU; frames from before the last reset don't count.
-    pub fn measured(&mut self, measured: &Measured) {
+    /// Takes in what came back from the GPU; frames from before the last reset don't count. Says whether
+    /// this one did.
+    pub fn measured(&mut self, measured: &Measured) -> bool {
         let Some(at) = self
             .expected
             .iter()
             .position(|frame| *frame == measured.frame)
         else {
-            return;
+            return false;
         };
         // Results come in order: what was submitted before will not come any more.
         self.expected.drain(..=at);
@@ -157,6 +158,7 @@ impl Timings {
         for (times, count) in self.passes.iter_mut().zip(&measured.vertices) {
             times.vertices = Some(*count);
         }
+        true
     }
 
     /// Whether results are still to come.

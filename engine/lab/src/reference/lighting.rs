@@ -7,7 +7,8 @@ use lightbench_render::gpu_data::LightData;
 use super::brdf::{self, LEAST_COSINE, LEAST_ROUGHNESS};
 
 /// The numbers of kinds of light; see `LIGHT_…` in `shaders/lib/scene.wgsl`.
-const SPOT: u32 = 1;
+/// The number of spots.
+pub const SPOT: u32 = 1;
 const DIRECTIONAL: u32 = 2;
 /// The number of ambient lights.
 pub const AMBIENT: u32 = 3;

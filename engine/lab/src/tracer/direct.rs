@@ -19,26 +19,61 @@ pub fn radiance(
     shadows: bool,
     witness: &mut impl Witness,
 ) -> DVec3 {
-    let line = Line {
+    let line = line_of(sight, [x, y]);
+    let to_viewer = -line.direction.normalize();
+    let mut sum = DVec3::ZERO;
+    let mut seen = Seen::new(scene, sight, line);
+    while let Some((point, share)) = seen.next(witness) {
+        let lit = lit(scene, &point, to_viewer, shadows, witness);
+        sum += (point.surface.emissive + lit) * share;
+    }
+    sum + scene.sky * seen.open
+}
+
+/// The line of sight through the middle of a pixel.
+pub fn line_of(sight: &Sight, [x, y]: [u32; 2]) -> Line {
+    Line {
         origin: sight.eye,
         direction: sight.direction(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)),
         pixel: Some([sight.across, sight.down]),
-    };
-    let mut sum = DVec3::ZERO;
-    // The share of what lies behind that shows.
-    let mut open = 1.0;
-    let mut from = sight.near;
-    while let Some((triangle, at)) = scene.look(&line, [from, sight.far], witness) {
-        let point = scene.point(&line, triangle);
-        let lit = lit(scene, &point, -line.direction.normalize(), shadows, witness);
-        sum += (point.surface.emissive + lit) * (open * point.opacity);
-        open *= 1.0 - point.opacity;
-        if open <= 0.0 {
-            return sum;
-        }
-        from = at.next_up();
     }
-    sum + scene.sky * open
+}
+
+/// What a line of sight meets, one surface after the other until one hides all that is behind it.
+pub struct Seen<'a> {
+    scene: &'a TracedScene,
+    line: Line,
+    from: f32,
+    far: f32,
+    /// The share of what lies behind all of them that shows.
+    pub open: f64,
+}
+
+impl<'a> Seen<'a> {
+    /// Nothing is met yet.
+    pub fn new(scene: &'a TracedScene, sight: &Sight, line: Line) -> Self {
+        Self {
+            scene,
+            line,
+            from: sight.near,
+            far: sight.far,
+            open: 1.0,
+        }
+    }
+
+    /// The next surface, and its share of the pixel.
+    pub fn next(&mut self, witness: &mut impl Witness) -> Option<(Point, f64)> {
+        if self.open <= 0.0 {
+            return None;
+        }
+        let reach = [self.from, self.far];
+        let (triangle, at) = self.scene.look(&self.line, reach, witness)?;
+        let point = self.scene.point(&self.line, triangle);
+        let share = self.open * point.opacity;
+        self.open *= 1.0 - point.opacity;
+        self.from = at.next_up();
+        Some((point, share))
+    }
 }
 
 fn lit(

@@ -37,6 +37,7 @@ mod rays;
 mod recorded;
 mod scatter;
 mod scene;
+mod shares;
 mod texture;
 
 use glam::{DVec2, DVec3};
@@ -47,6 +48,7 @@ use rayon::prelude::*;
 pub use options::{Mode, Options, Sources, Strategy};
 pub use recorded::Recorded;
 pub use scene::TracedScene;
+pub use shares::{LightAtPixel, LightShare, Reach};
 
 use crate::HdrImage;
 use camera::Sight;

@@ -232,6 +232,11 @@ pub struct FrameRequest<'a> {
 }
 
 impl Frame {
+    /// The rows of the objects that the camera sees.
+    pub fn visible_rows(&self) -> &[u32] {
+        &self.visible
+    }
+
     /// Fills the frame. The world's matrices and bounds must be up to date, and `lights` and
     /// `instances` in the order of their components' rows.
     pub fn extract(

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::probe::Invalid;
 use super::texels::Aspect;
-use crate::description::{PipelineDesc, Slice};
+use crate::description::{PassDesc, PipelineDesc, Slice};
 use crate::life::writes;
 use crate::problem::suggestion;
 
@@ -111,11 +111,31 @@ pub fn last_writer(desc: &PipelineDesc, target: &str) -> Result<usize, Unknown> 
     found.ok_or_else(|| Unknown::new(desc, ("target", "targets"), target, names))
 }
 
+/// The targets that a pass writes, to be shown as pictures: first the pipeline's output or HDR
+/// picture, then colours in the order in which they are declared, then the rest. Empty for passes that
+/// write buffers alone.
+pub fn pictures_of<'a>(desc: &PipelineDesc, pass: &'a PassDesc) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    let colors = pass.colors.iter().map(|color| color.target.as_str());
+    for name in colors.chain(writes(pass)) {
+        if desc.target(name).is_some() && !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let is_result = |name: &str| {
+        let results = [&desc.output, &desc.hdr].into_iter().flatten();
+        results.into_iter().any(|result| result.name == name)
+    };
+    // A stable sort: the others keep their order.
+    names.sort_by_key(|name| !is_result(name));
+    names
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::description::{PassDesc, PassKind, TargetDesc};
+    use crate::description::{ColorAttachment, Named, PassKind, TargetDesc};
     use crate::{Format, Place};
 
     #[test]
@@ -149,5 +169,34 @@ mod tests {
             told(last_writer(&desc, "sum").unwrap_err()),
             "`mine` has no target `sum`: the targets are: hdr"
         );
+    }
+
+    #[test]
+    fn a_pass_is_shown_by_its_result_or_its_first_colour() {
+        let named = |name: &str| Named {
+            name: name.to_owned(),
+            at: Place::default(),
+        };
+        let mut desc = PipelineDesc {
+            hdr: Some(named("hdr")),
+            output: Some(named("output")),
+            ..PipelineDesc::default()
+        };
+        for name in ["hdr", "output", "a", "b", "copied"] {
+            let format = Format::from_name("rgba16float").unwrap();
+            desc.targets
+                .push(TargetDesc::new(name, Place::default(), format));
+        }
+        let mut pass = PassDesc::new("pass", Place::default(), PassKind::Fullscreen);
+        for name in ["b", "a", "buffer"] {
+            pass.colors
+                .push(ColorAttachment::new(name, Place::default()));
+        }
+        assert_eq!(pictures_of(&desc, &pass), ["b", "a"]);
+        pass.colors
+            .push(ColorAttachment::new("hdr", Place::default()));
+        assert_eq!(pictures_of(&desc, &pass), ["hdr", "b", "a"]);
+        let nothing = PassDesc::new("nothing", Place::default(), PassKind::Clear);
+        assert!(pictures_of(&desc, &nothing).is_empty());
     }
 }

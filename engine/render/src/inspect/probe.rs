@@ -156,6 +156,8 @@ pub(super) struct Prober {
     gpu: Gpu,
     readers: Readers,
     request: ProbeRequest,
+    /// What the readings on their way were asked for.
+    recorded: ProbeRequest,
     readings: Vec<Reading>,
     requests: Vec<u8>,
     cut_off: bool,
@@ -175,6 +177,7 @@ impl Prober {
             gpu: gpu.clone(),
             readers: Readers::default(),
             request: ProbeRequest::default(),
+            recorded: ProbeRequest::default(),
             readings: Vec::new(),
             requests: Vec::new(),
             cut_off: false,
@@ -203,7 +206,7 @@ impl Prober {
     }
 
     pub fn is_busy(&self) -> bool {
-        self.is_asked() || self.state.load(Ordering::Acquire) != IDLE
+        self.request != ProbeRequest::default() || self.state.load(Ordering::Acquire) != IDLE
     }
 
     pub fn before_pass(
@@ -331,7 +334,7 @@ impl Prober {
         let shader = if what == What::Search { SEARCH } else { READ };
         let view = texels.view(target, slice, aspect);
         let reader = self.readers.get(&gpu, files, shader, texels)?;
-        let requests = (&buffers.requests, offset as u32);
+        let requests = (&buffers.requests, offset as u32, size_of::<RequestData>());
         reader.run(&gpu, encoder, &view, requests, &buffers.results, size);
         Ok(())
     }
@@ -345,6 +348,8 @@ impl Prober {
             .queue
             .write_buffer(&buffers.requests, 0, &self.requests);
         self.requests.clear();
+        // What is asked for meanwhile is read in a frame of its own.
+        self.recorded = std::mem::take(&mut self.request);
         let bytes = buffers.back.size();
         encoder.copy_buffer_to_buffer(&buffers.results, 0, &buffers.back, 0, bytes);
         self.state.store(ASKED, Ordering::Release);
@@ -375,12 +380,11 @@ impl Prober {
         }
         let readings = std::mem::take(&mut self.readings);
         let mut probed = Probed {
-            pixel: self.request.pixel,
-            searched: self.request.search,
+            pixel: self.recorded.pixel,
+            searched: self.recorded.search,
             cut_off: std::mem::take(&mut self.cut_off),
             ..Probed::default()
         };
-        self.request = ProbeRequest::default();
         if let Some(buffers) = self.buffers.as_ref().filter(|_| state == READY) {
             if let Ok(view) = buffers.back.get_mapped_range(..) {
                 answer(&mut probed, readings, &view);

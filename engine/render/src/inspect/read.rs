@@ -26,6 +26,9 @@ pub(super) const TEXEL_BYTES: u64 = 16;
 /// Seconds after which a read-back gives up.
 const TIMEOUT: u64 = 60;
 
+/// Takes least, greatest and counts of values.
+pub(super) const MEASURE: &str = "shaders/inspect/measure.wgsl";
+
 /// What a shader is asked for, as it has it.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -120,13 +123,13 @@ impl Reader {
             .map_err(|error| Problem::new(Place::file(shader), error))
     }
 
-    /// Runs over `size` texels of a view. The request lies in `requests` at `offset`.
+    /// Runs over `size` texels of a view. The request, of so many bytes, lies in `requests` at `offset`.
     pub fn run(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         view: &wgpu::TextureView,
-        (requests, offset): (&wgpu::Buffer, u32),
+        (requests, offset, bytes): (&wgpu::Buffer, u32, usize),
         results: &wgpu::Buffer,
         size: [u32; 2],
     ) {
@@ -139,7 +142,7 @@ impl Reader {
                     resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                         buffer: requests,
                         offset: 0,
-                        size: std::num::NonZeroU64::new(size_of::<RequestData>() as u64),
+                        size: std::num::NonZeroU64::new(bytes as u64),
                     }),
                 },
                 wgpu::BindGroupEntry {
@@ -214,7 +217,8 @@ pub fn read_any(
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let view = texels.view(target, slice, aspect);
     let size = [width, height];
-    reader.run(gpu, &mut encoder, &view, (&requests, 0), &results, size);
+    let request = (&requests, 0, size_of::<RequestData>());
+    reader.run(gpu, &mut encoder, &view, request, &results, size);
     encoder.copy_buffer_to_buffer(&results, 0, &back, 0, bytes);
     gpu.queue.submit([encoder.finish()]);
     back.map_async(wgpu::MapMode::Read, .., |_| {});

@@ -111,6 +111,17 @@ fn is_light(format: Format) -> bool {
     format.0.components() >= 3 && (format.0.is_srgb() || name.ends_with("float"))
 }
 
+/// Near and far plane as the shaders that show depth have them: 0 for one at infinity.
+pub(super) fn planes(at: &Between<'_>) -> (f32, f32) {
+    let frame = &at.frame.data;
+    let far = if frame.far.is_finite() {
+        frame.far
+    } else {
+        0.0
+    };
+    (frame.near, far)
+}
+
 /// As the shader has it.
 #[repr(C)]
 #[derive(Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -218,16 +229,12 @@ impl Shower {
             Entry::Vacant(empty) => empty.insert(display(&self.gpu, files, texels)?),
         };
 
-        let frame = &at.frame.data;
+        let (near, far) = planes(at);
         let data = InspectionData {
             low: request.low,
             high: request.high,
-            near: frame.near,
-            far: if frame.far.is_finite() {
-                frame.far
-            } else {
-                0.0
-            },
+            near,
+            far,
             channels: match request.channels {
                 Channels::Red => 0,
                 Channels::Green => 1,

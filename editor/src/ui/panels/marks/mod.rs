@@ -26,6 +26,12 @@ pub enum Mark {
     Selection,
     /// The handles by which it is moved.
     Handles,
+    /// The edges of triangles.
+    Edges,
+    /// The normals of vertices.
+    Normals,
+    /// Edges and normals of what is chosen alone.
+    OfChosen,
 }
 
 /// What of it is shown.
@@ -35,6 +41,9 @@ pub struct Marks {
     icons: bool,
     selection: bool,
     handles: bool,
+    edges: bool,
+    normals: bool,
+    of_chosen: bool,
 }
 
 impl Default for Marks {
@@ -45,6 +54,9 @@ impl Default for Marks {
             icons: true,
             selection: true,
             handles: true,
+            edges: false,
+            normals: false,
+            of_chosen: false,
         }
     }
 }
@@ -56,6 +68,9 @@ impl Marks {
             Mark::Icons => &mut self.icons,
             Mark::Selection => &mut self.selection,
             Mark::Handles => &mut self.handles,
+            Mark::Edges => &mut self.edges,
+            Mark::Normals => &mut self.normals,
+            Mark::OfChosen => &mut self.of_chosen,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use lightbench::render::inspect::{Combination, Combiner};
+use lightbench::render::inspect::{Attention, Combination, Combiner};
 use lightbench::render::{Place, Problem, RenderError, View};
 
 use super::{Made, Mode};
@@ -66,7 +66,7 @@ impl Workbench {
         let frame = self.renderer.next_frame();
         self.renderer.set_frame_index(index);
         // What is looked into is A.
-        self.renderer.inspector().rest(true);
+        self.renderer.inspector().attend(Attention::Nothing);
         let (world, assets) = (&mut scene.world, &scene.assets);
         let result = self
             .renderer
@@ -99,7 +99,7 @@ impl Workbench {
                 None
             }
         };
-        self.renderer.inspector().rest(false);
+        self.renderer.inspector().attend(Attention::Whole);
         self.renderer.set_frame_index(index.wrapping_add(1));
         if let Some(error) = failed {
             self.device_failed(error);

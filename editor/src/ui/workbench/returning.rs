@@ -1,31 +1,33 @@
-//! What comes back from the device: what frames cost, warnings, and that it failed.
+//! What comes back from the device some frames later.
+
+use std::time::Instant;
 
 use lightbench::render::GpuError;
 
 use super::Workbench;
 
 impl Workbench {
-    /// Takes in what the device has measured since.
     pub(super) fn take_measurements(&mut self) {
         match self.renderer.poll() {
             Ok(results) => {
-                let others = self.comparing.take_measured(results);
-                let results = match &others {
-                    Some((mine, grew)) => {
-                        if *grew {
-                            self.canvas.invalidate();
-                        }
-                        mine.as_slice()
+                let mut results = results.to_vec();
+                self.measured_beside(&mut results);
+                if let Some((mine, grew)) = self.comparing.take_measured(&results) {
+                    results = mine;
+                    if grew {
+                        self.canvas.invalidate();
                     }
-                    None => results,
-                };
+                }
+                let results = results.as_slice();
                 if let Some(pipeline) = self.pipelines.shown_pipeline()
                     && pipeline.grow(results)
                 {
                     self.canvas.invalidate();
                 }
                 for measured in results {
-                    self.timings.measured(measured);
+                    if self.timings.measured(measured) {
+                        self.trends.measured(Instant::now(), measured);
+                    }
                     if let Some((scale, ms)) = self.canvas.measured(measured) {
                         self.resolution.measured(scale, ms);
                     }
@@ -34,6 +36,8 @@ impl Workbench {
             Err(error) => self.device_failed(error),
         }
         self.take_probed();
+        self.take_measured();
+        self.take_lighting();
         for warning in self.renderer.take_warnings() {
             self.log.warn(warning);
         }

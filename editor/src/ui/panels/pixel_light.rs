@@ -1,0 +1,210 @@
+//! The light at the probed pixel: lamp by lamp, and under another pipeline.
+
+use egui::{Grid, RichText, ScrollArea, Ui};
+use lightbench::world::Entity;
+use lightbench::world::glam::DVec3;
+
+use super::widgets::{MISSING, combo};
+use crate::ui::editor::Editor;
+use crate::ui::workbench::lighting::Lit;
+
+/// Lamps that are listed; the rest is summed up.
+const MOST_LAMPS: usize = 40;
+
+/// Draws both parts.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    lamps(editor, ui);
+    beside(editor, ui);
+}
+
+/// A table of four columns that may be wider than the panel.
+fn wide(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
+    ScrollArea::horizontal().id_salt(name).show(ui, |ui| {
+        Grid::new(name).num_columns(4).striped(true).show(ui, rows);
+    });
+}
+
+fn numbers(values: [f64; 3]) -> String {
+    values.map(|value| format!("{value:9.5}")).join(" ")
+}
+
+fn lamps(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    ui.horizontal(|ui| {
+        let about = "What each light adds to the pixel, computed on the processor from the scene as it \
+                     stands, by the same formulas as the shaders have. Without shadows.";
+        let on = ui.checkbox(&mut workbench.lighting.on, "Light by light");
+        if on.on_hover_text(about).changed() && workbench.lighting.on {
+            workbench.light_pixel();
+        }
+        if workbench.lighting.is_waiting() {
+            ui.spinner();
+        }
+    });
+    if !workbench.lighting.on {
+        return;
+    }
+    let Some(lit) = workbench.lit() else {
+        return;
+    };
+    for warning in &lit.warnings {
+        ui.label(RichText::new(warning).weak());
+    }
+    if !lit.meets {
+        ui.label("Nothing is drawn there: the pixel shows the sky.");
+    }
+    let clicked = table(ui, lit);
+    let [behind, outside, beyond] = lit.others;
+    let others = [
+        (behind, "shine from behind the surface"),
+        (outside, "have it outside of their cone"),
+        (beyond, "are too far off"),
+    ];
+    let others: Vec<String> = others
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, why)| format!("{count} {why}"))
+        .collect();
+    if !others.is_empty() {
+        ui.label(RichText::new(format!("Other lights: {}.", others.join(", "))).weak());
+    }
+    let hdr = workbench.probing.results.hdr;
+    ui.label(match hdr {
+        Some([r, g, b, _]) => against(lit.sum, DVec3::new(r.into(), g.into(), b.into())),
+        None => "The pipeline names no target of light to compare with.".to_owned(),
+    });
+    if let Some(scene) = workbench.scenes.scene()
+        && let Some(entity) = clicked.filter(|entity| scene.world.contains(*entity))
+    {
+        workbench.selection.set(scene, [entity]);
+    }
+}
+
+/// The sum and what the pipeline has, in words.
+fn against(sum: DVec3, hdr: DVec3) -> String {
+    let apart = (hdr - sum).abs().max_element();
+    let share = apart / sum.abs().max_element().max(1e-9);
+    format!(
+        "The pipeline's light is {}: off by {apart:.5}, {:.2} % of the sum.",
+        numbers(hdr.to_array()).trim_start(),
+        share * 100.0
+    )
+}
+
+/// Draws the lamps. Returns the one that was clicked.
+fn table(ui: &mut Ui, lit: &Lit) -> Option<Entity> {
+    let mut clicked = None;
+    let mono = |text: String| RichText::new(text).monospace();
+    wide(ui, "lamps", |ui| {
+        for title in ["Light", "Kind", "Metres", "Radiance"] {
+            ui.strong(title);
+        }
+        ui.end_row();
+        for lamp in lit.lamps.iter().take(MOST_LAMPS) {
+            let name = ui.selectable_label(false, &lamp.name);
+            if name.on_hover_text("Chooses it").clicked() {
+                clicked = Some(lamp.entity);
+            }
+            ui.label(lamp.kind);
+            let metres = lamp.distance.map(|metres| format!("{metres:.2}"));
+            ui.label(mono(metres.unwrap_or_else(|| MISSING.to_owned())));
+            ui.label(mono(numbers(lamp.radiance.to_array())));
+            ui.end_row();
+        }
+        let mut line = |name: String, value: DVec3| {
+            ui.label(RichText::new(name).weak());
+            ui.label("");
+            ui.label("");
+            ui.label(mono(numbers(value.to_array())));
+            ui.end_row();
+        };
+        let rest = &lit.lamps[lit.lamps.len().min(MOST_LAMPS)..];
+        if !rest.is_empty() {
+            let sum = rest.iter().map(|lamp| lamp.radiance).sum();
+            line(format!("{} more", rest.len()), sum);
+        }
+        for (name, value) in [("emitted", lit.emitted), ("sky", lit.sky)] {
+            if value != DVec3::ZERO {
+                line(name.to_owned(), value);
+            }
+        }
+        line("sum".to_owned(), lit.sum);
+    });
+    clicked
+}
+
+fn beside(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
+    let chosen = workbench.beside.pipeline.clone();
+    let title = |name: &str| workbench.library.pipeline_title(name).to_owned();
+    let shown = chosen.as_deref().map_or_else(|| "none".to_owned(), title);
+    let here = workbench.pipelines.shown().unwrap_or_default().to_owned();
+    let mut wanted = None;
+    ui.horizontal(|ui| {
+        let response = combo(ui, "Compare with", &shown, 170.0, |ui| {
+            if ui.selectable_label(chosen.is_none(), "none").clicked() {
+                wanted = Some(None);
+            }
+            for entry in &workbench.library.pipelines {
+                let is_chosen = chosen.as_ref() == Some(&entry.name);
+                if entry.name != here && ui.selectable_label(is_chosen, &entry.title).clicked() {
+                    wanted = Some(Some(entry.name.clone()));
+                }
+            }
+        });
+        response.on_hover_text(
+            "Draws the same moment once with another pipeline, and reads the pixel there. The \
+             picture on screen stays.",
+        );
+        if workbench.beside.is_waiting() {
+            ui.spinner();
+        }
+    });
+    if let Some(wanted) = wanted {
+        workbench.put_beside(wanted.as_deref());
+    }
+    if let Some(problem) = &workbench.beside.problem {
+        ui.label(problem);
+    }
+    let Some(there) = workbench.pixel_beside() else {
+        return;
+    };
+    let now = workbench.probing.results;
+    wide(ui, "beside", |ui| {
+        for title in ["", "Here", "There", "Difference"] {
+            ui.strong(title);
+        }
+        ui.end_row();
+        let rows = [
+            ("Light", now.hdr, there.hdr),
+            ("Picture", now.output, there.output),
+        ];
+        for (name, here, there) in rows {
+            ui.label(name);
+            let rgb = |value: Option<[f32; 4]>| value.map(|[r, g, b, _]| [r, g, b].map(f64::from));
+            let (here, there) = (rgb(here), rgb(there));
+            let apart = here
+                .zip(there)
+                .map(|(here, there)| [0, 1, 2].map(|channel| there[channel] - here[channel]));
+            for value in [here, there, apart] {
+                let text = value.map_or_else(|| MISSING.to_owned(), numbers);
+                ui.label(RichText::new(text).monospace());
+            }
+            ui.end_row();
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_difference_is_that_of_the_worst_channel() {
+        let text = against(DVec3::new(1.0, 2.0, 4.0), DVec3::new(1.0, 2.5, 4.0));
+        assert!(
+            text.ends_with("off by 0.50000, 12.50 % of the sum."),
+            "{text}"
+        );
+    }
+}
