@@ -57,6 +57,18 @@ pub enum Action {
     SwitchTheme,
     /// What can be done with mouse and keys.
     Help,
+    /// Open the script of the scene.
+    EditScene,
+    /// Open the file of the pipeline.
+    EditPipeline,
+    /// Save the file that is shown.
+    SaveFile,
+    /// Go on with another project.
+    OpenProject,
+    /// Open a scene, a pipeline or a model.
+    OpenScene,
+    /// Write the scene to a file.
+    SaveSceneAs,
     /// What this program is.
     About,
     /// Close the window.
@@ -107,6 +119,21 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
             &[
                 entry(Action::Palette, "Find an action", command(Key::P)),
                 entry(Action::Reload, "Reload everything", key(Key::F5)),
+            ],
+            &[
+                entry(Action::OpenProject, "Open a project", None),
+                // Before the key without Shift, which fits both.
+                entry(
+                    Action::SaveSceneAs,
+                    "Save the scene as",
+                    Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::S)),
+                ),
+                entry(Action::OpenScene, "Open a scene", command(Key::O)),
+            ],
+            &[
+                entry(Action::EditScene, "Edit the scene's script", command(Key::E)),
+                entry(Action::EditPipeline, "Edit the pipeline's file", None),
+                entry(Action::SaveFile, "Save the file", command(Key::S)),
             ],
             &[entry(Action::Quit, "Quit", command(Key::Q))],
         ],
@@ -181,6 +208,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
                 entry(Action::Toggle(Panel::Actions), "Actions", None),
                 entry(Action::Toggle(Panel::Plots), "Plots", None),
                 entry(Action::Toggle(Panel::History), "History", None),
+                entry(Action::Toggle(Panel::Code), "Code", None),
             ],
             &[
                 entry(Action::ResetLayout, "Reset the layout", None),

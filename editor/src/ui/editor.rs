@@ -9,8 +9,11 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
+use super::code::Code;
+use super::dialogs::{Dialogs, Question};
 use super::kept::Kept;
 use super::layout::{self, Panel};
+use super::panels::code::CodePanel;
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
 use super::panels::marks::Marks;
@@ -33,6 +36,11 @@ pub struct Editor {
     pub(super) entities: EntitiesPanel,
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
+    /// The files that are open.
+    pub code: Code,
+    pub(super) code_panel: CodePanel,
+    /// Questions for files and folders.
+    pub dialogs: Dialogs,
     pub(super) viewport: ViewportPanel,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
@@ -62,10 +70,18 @@ impl Editor {
         kept: Kept,
     ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
+        let code = Code::new(kept.unsaved_folder(), workbench.files());
+        let mut layout = layout::first();
+        if !code.offered.is_empty() {
+            layout::set_visible(&mut layout, Panel::Code, true);
+        }
         Self {
+            code,
+            code_panel: CodePanel::default(),
+            dialogs: Dialogs::default(),
             workbench,
             screen,
-            layout: layout::first(),
+            layout,
             passes: PassesPanel::default(),
             targets: TargetsPanel::default(),
             entities: EntitiesPanel::default(),
@@ -106,7 +122,9 @@ impl Editor {
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let now = Instant::now();
         self.workbench.tick(now);
+        self.tend_code(now);
         let ctx = ui.ctx().clone();
+        panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
 
         egui::Panel::top("menu").show(ui, |ui| panels::menu::show(self, ui));
@@ -130,6 +148,8 @@ impl Editor {
         }
         panels::help::show(self, &ctx);
         panels::palette::show(self, &ctx);
+        panels::code::leaving::show(self, &ctx);
+        self.follow_dialogs(&ctx);
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -139,7 +159,8 @@ impl Editor {
             self.workbench.undo.seal();
         }
 
-        if let Some(due) = self.workbench.next_due(now) {
+        let due = [self.workbench.next_due(now), self.code.next_due(now)];
+        if let Some(due) = due.into_iter().flatten().min() {
             ctx.request_repaint_after(due);
         }
     }
@@ -183,7 +204,13 @@ impl Editor {
             }
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
-            Action::Quit => self.quit = true,
+            Action::EditScene => self.edit_scene(),
+            Action::EditPipeline => self.edit_pipeline(),
+            Action::SaveFile => self.save_shown_file(),
+            Action::OpenProject => self.ask_for(Question::Project),
+            Action::OpenScene => self.ask_for(Question::Scene),
+            Action::SaveSceneAs => self.ask_for(Question::SaveScene),
+            Action::Quit => self.ask_to_quit(),
         }
     }
 
@@ -199,13 +226,27 @@ impl Editor {
 
     /// Opens a file that somebody brought.
     pub(super) fn open_file(&mut self, file: &Path) {
-        match self.workbench.open_file(file) {
-            Ok(()) => self.opened = std::path::absolute(file).ok(),
-            Err(why) => {
-                self.workbench.log.error(why);
-                layout::set_visible(&mut self.layout, Panel::Log, true);
-            }
+        if let Err(why) = self.try_to_open_file(file) {
+            self.workbench.log.error(why);
+            layout::set_visible(&mut self.layout, Panel::Log, true);
         }
+    }
+
+    /// The same; what keeps the file from being opened is told.
+    pub(super) fn try_to_open_file(&mut self, file: &Path) -> Result<(), String> {
+        self.workbench.open_file(file)?;
+        self.opened = std::path::absolute(file).ok();
+        Ok(())
+    }
+
+    /// The file that was brought last is none of the present project.
+    pub(super) fn forget_opened_file(&mut self) {
+        self.opened = None;
+    }
+
+    /// Closes the window in the next frame.
+    pub(super) fn quit(&mut self) {
+        self.quit = true;
     }
 
     /// Opens the files that were dropped onto the window.
@@ -274,6 +315,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Actions => panels::actions::show(self.editor, ui),
             Panel::Plots => panels::plots::show(self.editor, ui),
             Panel::History => panels::history::show(self.editor, ui),
+            Panel::Code => panels::code::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

@@ -67,6 +67,11 @@ impl Kept {
         }
     }
 
+    /// The folder of texts that are not saved, beside the file.
+    pub fn unsaved_folder(&self) -> Option<PathBuf> {
+        Some(self.path.as_ref()?.parent()?.join("unsaved"))
+    }
+
     /// Keeps a line of the console.
     ///
     /// # Errors

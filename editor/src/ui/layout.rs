@@ -29,6 +29,8 @@ pub enum Panel {
     Plots,
     /// What was changed by hand, to be taken back.
     History,
+    /// Scripts and shaders.
+    Code,
 }
 
 impl Panel {
@@ -47,6 +49,7 @@ impl Panel {
             Self::Actions => "Actions",
             Self::Plots => "Plots",
             Self::History => "History",
+            Self::Code => "Code",
         }
     }
 }
@@ -61,6 +64,7 @@ pub fn first() -> Tree<Panel> {
             .collect();
         tiles.insert_tab_tile(panes)
     };
+    let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
     let log = tabs(&[
         Panel::Log,
@@ -85,9 +89,12 @@ pub fn first() -> Tree<Panel> {
     let root = split(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(left, 0.62), (right, 0.38)],
+        &[(code, 0.5), (left, 0.62), (right, 0.38)],
     );
-    Tree::new(egui::Id::unique("panels"), root, tiles)
+    let mut tree = Tree::new(egui::Id::unique("panels"), root, tiles);
+    // It takes its place when a file is opened.
+    set_visible(&mut tree, Panel::Code, false);
+    tree
 }
 
 fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {

@@ -5,6 +5,9 @@
 
 pub mod actions;
 pub mod bench;
+pub mod code;
+mod coding;
+pub mod dialogs;
 pub mod editor;
 pub mod kept;
 pub mod layout;

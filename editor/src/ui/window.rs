@@ -234,7 +234,12 @@ impl ApplicationHandler<Repaint> for Program {
                 return;
             }
             WindowEvent::CloseRequested => {
-                events.exit();
+                running.editor.ask_to_quit();
+                if running.editor.wants_to_quit() {
+                    events.exit();
+                } else {
+                    running.window.request_redraw();
+                }
                 return;
             }
             WindowEvent::Resized(size) => running.surface.resize(size.width, size.height),

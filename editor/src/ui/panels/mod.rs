@@ -1,6 +1,7 @@
 //! The panels of the window.
 
 pub mod actions;
+pub mod code;
 pub mod console;
 pub mod entities;
 pub mod handles;

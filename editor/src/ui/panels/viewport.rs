@@ -11,7 +11,7 @@ use lightbench::script::SceneEvent;
 use lightbench::world::glam::{Vec2, Vec3};
 
 use super::handles::{self, Handles};
-use super::{heat_map, marks, select};
+use super::{heat_map, marks, select, widgets};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::lens::Lens;
@@ -240,9 +240,10 @@ fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
 }
 
 /// The mistakes that keep the newest state off the screen, over the last good picture.
-fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
+fn problems(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let workbench = &editor.workbench;
     let count = workbench.problems().count();
+    let mut wanted = None;
     if count == 0 {
         return;
     }
@@ -261,7 +262,9 @@ fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
             if index > 0 {
                 ui.separator();
             }
-            one_problem(ui, problem, palette);
+            if one_problem(ui, problem, palette) {
+                wanted = Some(problem.place.clone());
+            }
         }
         if count > MOST_PROBLEMS {
             ui.label(RichText::new(format!("{} more in the log", count - MOST_PROBLEMS)).weak());
@@ -271,14 +274,14 @@ fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
             ui.label(RichText::new("The last good picture stays until this is mended.").weak());
         }
     });
+    if let Some(place) = wanted {
+        editor.go_to(&place);
+    }
 }
 
-fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) {
-    ui.label(
-        RichText::new(problem.place.to_string())
-            .monospace()
-            .color(palette.error),
-    );
+/// Returns whether somebody wants to see its place.
+fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) -> bool {
+    let clicked = widgets::place(ui, &problem.place, palette.error);
     ui.label(&problem.message);
     if let Some(line) = &problem.source_line {
         let mut text = line.replace('\t', "    ");
@@ -294,6 +297,7 @@ fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) {
     if let Some(hint) = &problem.hint {
         ui.label(RichText::new(hint).italics());
     }
+    clicked
 }
 
 /// How far the next scene is, and that the first pipeline is built.
