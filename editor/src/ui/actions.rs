@@ -69,6 +69,10 @@ pub enum Action {
     OpenScene,
     /// Write the scene to a file.
     SaveSceneAs,
+    /// Show scenes, pipelines and examples.
+    Gallery,
+    /// Say what to try first.
+    Welcome,
     /// What this program is.
     About,
     /// Close the window.
@@ -121,6 +125,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
                 entry(Action::Reload, "Reload everything", key(Key::F5)),
             ],
             &[
+                entry(Action::Gallery, "Gallery", None),
                 entry(Action::OpenProject, "Open a project", None),
                 // Before the key without Shift, which fits both.
                 entry(
@@ -243,6 +248,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
     (
         "Help",
         &[&[
+            entry(Action::Welcome, "Welcome", None),
             entry(Action::Help, "Mouse and keys", key(Key::F1)),
             entry(Action::About, "About Lightbench", None),
         ]],
@@ -301,7 +307,7 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         // Keys are for its amount.
         return;
     }
-    if editor.palette.is_some() {
+    if editor.palette.is_some() || editor.has_question() {
         return;
     }
     // Escape closes a menu or leaves a field first.

@@ -153,7 +153,12 @@ impl Editor {
     }
 
     /// Takes in what changed on the disk, and keeps what is not saved.
-    pub(super) fn tend_code(&mut self, now: Instant) {
+    pub(super) fn tend_code(&mut self, now: Instant, focused: bool) {
+        if focused && !self.was_focused {
+            // Who comes back from another program may have saved something that is not watched.
+            self.code.refresh(self.workbench.files(), None);
+        }
+        self.was_focused = focused;
         if let Some(touched) = self.workbench.take_touched() {
             let paths: Vec<String> = touched.paths.into_iter().collect();
             let changed = (!touched.everything).then_some(paths.as_slice());
@@ -162,6 +167,11 @@ impl Editor {
         for error in self.code.note(now) {
             self.workbench.log.error(error);
         }
+    }
+
+    /// Whether something is asked that comes before all else.
+    pub(super) fn has_question(&self) -> bool {
+        self.code.leaving.is_some() || self.dialogs.is_typing()
     }
 
     /// Asks for a file or a folder.
@@ -214,6 +224,18 @@ impl Editor {
         self.code.move_to(root, self.workbench.files());
         self.forget_opened_file();
         Ok(())
+    }
+
+    /// Lets the gallery go on, unless somebody works.
+    pub(super) fn tend_gallery(&mut self, ctx: &egui::Context) {
+        let works = ctx.input(|input| input.pointer.any_down() || !input.events.is_empty());
+        if works {
+            self.gallery.thumbnails.hold();
+        }
+        let workbench = &self.workbench;
+        let (files, gpu) = (workbench.files(), workbench.gpu_options());
+        self.gallery
+            .tend(&workbench.library, files, gpu, workbench.wake());
     }
 
     fn save_scene(&mut self, path: &Path) -> Result<(), String> {

@@ -172,9 +172,9 @@ impl Dialogs {
         });
     }
 
-    /// Whether the system's dialog is open.
-    pub fn is_waiting(&self) -> bool {
-        self.open.is_some()
+    /// Whether a path is being typed.
+    pub fn is_typing(&self) -> bool {
+        self.typed.is_some()
     }
 
     fn show_typed(&mut self, ctx: &Context) -> Option<(Question, PathBuf)> {

@@ -11,6 +11,7 @@ use lightbench::render::Gpu;
 use super::actions::{self, Action};
 use super::code::Code;
 use super::dialogs::{Dialogs, Question};
+use super::gallery::Gallery;
 use super::kept::Kept;
 use super::layout::{self, Panel};
 use super::panels::code::CodePanel;
@@ -39,6 +40,10 @@ pub struct Editor {
     /// The files that are open.
     pub code: Code,
     pub(super) code_panel: CodePanel,
+    /// What there is to look at.
+    pub gallery: Gallery,
+    /// Whether it is said what to try first.
+    pub welcome: bool,
     /// Questions for files and folders.
     pub dialogs: Dialogs,
     pub(super) viewport: ViewportPanel,
@@ -56,6 +61,8 @@ pub struct Editor {
     quit: bool,
     /// Whether a widget had the keys in the last frame.
     pub(super) was_typing: bool,
+    /// Whether the window had the keys in the last frame.
+    pub(super) was_focused: bool,
     /// The file that was brought last.
     opened: Option<PathBuf>,
     /// The swap of scenes that is kept among those of late.
@@ -79,6 +86,8 @@ impl Editor {
             code,
             code_panel: CodePanel::default(),
             dialogs: Dialogs::default(),
+            gallery: Gallery::new(),
+            welcome: kept.is_new,
             workbench,
             screen,
             layout,
@@ -97,6 +106,7 @@ impl Editor {
             about: false,
             quit: false,
             was_typing: false,
+            was_focused: true,
             opened: None,
             remembered: 0,
         }
@@ -105,6 +115,7 @@ impl Editor {
     /// Goes on with another device and painter; what was edited stays.
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
+        self.gallery.thumbnails.forget();
         self.workbench.move_to(gpu);
     }
 
@@ -122,8 +133,8 @@ impl Editor {
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let now = Instant::now();
         self.workbench.tick(now);
-        self.tend_code(now);
         let ctx = ui.ctx().clone();
+        self.tend_code(now, ctx.input(|input| input.focused));
         panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
 
@@ -147,6 +158,8 @@ impl Editor {
             layout::set_visible(&mut self.layout, panel, true);
         }
         panels::help::show(self, &ctx);
+        panels::welcome::show(self, &ctx);
+        panels::gallery::show(self, &ctx);
         panels::palette::show(self, &ctx);
         panels::code::leaving::show(self, &ctx);
         self.follow_dialogs(&ctx);
@@ -210,6 +223,11 @@ impl Editor {
             Action::OpenProject => self.ask_for(Question::Project),
             Action::OpenScene => self.ask_for(Question::Scene),
             Action::SaveSceneAs => self.ask_for(Question::SaveScene),
+            Action::Gallery => {
+                let (files, wake) = (self.workbench.files().clone(), self.workbench.wake().clone());
+                self.gallery.open(&files, &wake);
+            }
+            Action::Welcome => self.welcome = true,
             Action::Quit => self.ask_to_quit(),
         }
     }

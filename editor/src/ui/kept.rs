@@ -16,6 +16,8 @@ const MOST_SCENES: usize = 8;
 #[derive(Debug, Default)]
 pub struct Kept {
     path: Option<PathBuf>,
+    /// Whether there was no file yet: the editor starts for the first time.
+    pub is_new: bool,
     /// Lines of the console, oldest first.
     pub console: Vec<String>,
     /// Scenes of late, the last one first: names, or paths of files outside the project.
@@ -60,6 +62,7 @@ impl Kept {
         };
         let (console, scenes) = (texts("console"), texts("scenes"));
         Self {
+            is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
             scenes,

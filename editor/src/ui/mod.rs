@@ -9,6 +9,7 @@ pub mod code;
 mod coding;
 pub mod dialogs;
 pub mod editor;
+pub mod gallery;
 pub mod kept;
 pub mod layout;
 pub mod lens;

@@ -38,36 +38,34 @@ fn lines_of(text: &str, chosen: &Range<usize>) -> Range<usize> {
     start..end
 }
 
-/// A new line that begins where the one before does, and further in after a brace.
-pub fn new_line(text: &str, chosen: &Range<usize>) -> Edit {
-    let (from, to) = (byte_of(text, chosen.start), byte_of(text, chosen.end));
-    let start = text[..from].rfind('\n').map_or(0, |at| at + 1);
-    let before = &text[start..from];
+/// What Enter writes, after what stands before it in its line: the next line begins where this one
+/// does, and further in after a brace.
+pub fn line_break(before: &str) -> String {
     let indent = &before[..before.len() - before.trim_start_matches([' ', '\t']).len()];
     let opens = before.trim_end().ends_with(['{', '(', '[']);
-    let with = format!("\n{indent}{}", if opens { INDENT } else { "" });
-    let caret = chosen.start + with.chars().count();
-    Edit {
-        range: from..to,
-        with,
-        chosen: caret..caret,
-    }
+    format!("\n{indent}{}", if opens { INDENT } else { "" })
 }
 
-/// Tab: chosen lines go in; without a choice blanks are written up to the next column of four.
+/// What Tab writes, after what stands before it in its line: blanks up to the next column of four.
+pub fn blanks(before: &str) -> String {
+    let column = before.chars().count();
+    " ".repeat(INDENT.len() - column % INDENT.len())
+}
+
+/// What stands before a letter in its line.
+pub fn line_before(text: &str, letter: usize) -> &str {
+    let before = &text[..byte_of(text, letter)];
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    &before[start..]
+}
+
+/// Whether the letters lie in several lines.
+pub fn has_lines(text: &str, chosen: &Range<usize>) -> bool {
+    text[byte_of(text, chosen.start)..byte_of(text, chosen.end)].contains('\n')
+}
+
+/// Tab with several lines chosen: they go in.
 pub fn indent(text: &str, chosen: &Range<usize>) -> Edit {
-    let (from, to) = (byte_of(text, chosen.start), byte_of(text, chosen.end));
-    if !text[from..to].contains('\n') {
-        let start = text[..from].rfind('\n').map_or(0, |at| at + 1);
-        let column = text[start..from].chars().count();
-        let with = " ".repeat(INDENT.len() - column % INDENT.len());
-        let caret = chosen.start + with.len();
-        return Edit {
-            range: from..to,
-            with,
-            chosen: caret..caret,
-        };
-    }
     each_line(text, chosen, |line| match line {
         "" => String::new(),
         line => format!("{INDENT}{line}"),
@@ -137,17 +135,20 @@ mod tests {
 
     #[test]
     fn a_new_line_keeps_the_indentation_and_goes_in_after_a_brace() {
-        let text = "é\n  if a {x";
-        let edit = new_line(text, &(10..10));
-        assert_eq!(done(text, &edit), ("é\n  if a {\n      x".to_owned(), 17..17));
-        let edit = new_line(text, &(1..2));
-        assert_eq!(done(text, &edit), ("é\n  if a {x".to_owned(), 2..2));
+        assert_eq!(line_break("  if a { "), "\n      ");
+        assert_eq!(line_break("\té"), "\n\t");
+        assert_eq!(line_break("a"), "\n");
+        assert_eq!(line_before("é\n  ab", 5), "  a");
+        assert_eq!(line_before("é\n  ab", 1), "é");
+        assert_eq!(line_before("é\n", 2), "");
     }
 
     #[test]
     fn tab_writes_blanks_or_moves_lines() {
-        let edit = indent("ab", &(2..2));
-        assert_eq!(done("ab", &edit), ("ab  ".to_owned(), 4..4));
+        assert_eq!(blanks("äb"), "  ");
+        assert_eq!(blanks(""), "    ");
+        assert!(has_lines("a\nb", &(0..2)));
+        assert!(!has_lines("a\nb", &(0..1)));
         let text = "a\n\n b\nc";
         let edit = indent(text, &(0..5));
         assert_eq!(done(text, &edit), ("    a\n\n     b\nc".to_owned(), 0..13));

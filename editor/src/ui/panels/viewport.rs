@@ -83,7 +83,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         let text = format!("{:.0} % resolution while moving", scale * 100.0);
         note(ui, rect, Align2::RIGHT_TOP, &text);
     }
-    if editor.hint {
+    if editor.hint && !editor.welcome {
         hint(editor, ui, rect);
     }
 }
@@ -340,9 +340,9 @@ fn note(ui: &Ui, rect: Rect, align: Align2, text: &str) {
 fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let palette = Palette::of(ui);
     let third = if editor.workbench.files().project().is_some() {
-        "Save a shader or script of your project, and the picture follows."
+        "Ctrl+E shows the scene's script. Save, here or in another program, and the picture follows."
     } else {
-        "To change shaders and scripts, make a project: lightbench new project DIR"
+        "Ctrl+E shows the scene's script. To change it, open a project: File, Open a project."
     };
     let lines = [
         "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lightbench::assets::files::Files;
 
-use super::Workbench;
+use super::{Wake, Workbench};
 use super::watching::{Touched, Watch};
 
 impl Workbench {
@@ -39,6 +39,11 @@ impl Workbench {
     pub(in crate::ui) fn use_files(&mut self, files: Files) {
         self.scenes.use_files(files.clone());
         self.files = files;
+    }
+
+    /// Who is told when a thread has finished something.
+    pub(in crate::ui) fn wake(&self) -> &Wake {
+        &self.wake
     }
 
     /// Whether changes of the project's files are noticed.

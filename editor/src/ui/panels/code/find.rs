@@ -144,7 +144,7 @@ impl Find {
                 // What is typed is looked for from where the caret is.
                 wish = self.step(from, true);
             } else if next || entered && !shift {
-                wish = self.step(behind.max(from + usize::from(behind == from)), true);
+                wish = self.step(behind, true);
             } else if previous || entered {
                 wish = self.step(from, false);
             }
@@ -159,6 +159,7 @@ impl Find {
             });
             if ui.small_button("Close").clicked() || escaped {
                 self.is_open = false;
+                self.has_keys = false;
                 wish = Some(Wish::Back);
             }
         });
@@ -194,6 +195,7 @@ impl Find {
         });
         if wish.is_some() {
             self.line = None;
+            self.has_keys = false;
         }
         wish
     }

@@ -40,7 +40,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         }
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            if ui.button("Save").clicked() {
+            if ui.button("Save and close").clicked() {
                 answer = Some(Answer::Save);
             }
             if ui.button("Don't save").clicked() {

@@ -123,10 +123,11 @@ impl Lines {
         });
         finish(&mut parts);
         self.known = kept;
+        // The rows have their colours; a job without a section would count as empty.
+        let format = TextFormat::simple(font(), color(Kind::Plain, dark));
         let job = LayoutJob {
-            text: text.to_owned(),
             wrap: TextWrapping::no_max_width(),
-            ..LayoutJob::default()
+            ..LayoutJob::single_section(text.to_owned(), format)
         };
         Arc::new(Galley::concat(Arc::new(job), &rows, scale))
     }

@@ -20,7 +20,7 @@ const TEXTS: [&str; 4] = [".rhai", ".wgsl", ".md", ".scene"];
 impl FileList {
     /// Draws the button and, below it, the list. Returns the file that was chosen.
     pub fn show(&mut self, ui: &mut Ui, files: &Files) -> Option<String> {
-        let button = ui.button("Open file").on_hover_text("Ctrl+O");
+        let button = ui.button("Open file");
         let mut chosen = None;
         let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
         let open = popup.is_open();

@@ -30,6 +30,8 @@ pub struct CodePanel {
     find: Find,
     list: FileList,
     comparing: bool,
+    /// The file is saved once the text has taken what was typed.
+    save: bool,
     /// The text gets the keys in the next frame.
     focus: bool,
     /// What is chosen in the next frame, in bytes.
@@ -56,7 +58,8 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
         ctx.input_mut(|input| input.consume_shortcut(&shortcut))
     };
     if has_keys && press(Modifiers::COMMAND, Key::S) {
-        editor.save_shown_file();
+        // After the letters that were typed before it in this frame.
+        editor.code_panel.save = true;
     }
     if press(Modifiers::COMMAND, Key::F)
         && let Some(document) = editor.code.shown()
@@ -100,6 +103,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     match marks {
         Some(marks) => body(editor, ui, &marks),
         None => nothing(ui),
+    }
+    if std::mem::take(&mut editor.code_panel.save) {
+        editor.save_shown_file();
     }
     if let Some(choice) = choice {
         decide(editor, choice);
@@ -180,8 +186,8 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let Some(document) = code.shown_mut() else {
         return;
     };
-    let row = ui.text_style_height(&egui::TextStyle::Body) + 4.0;
-    let below = row * (1.0 + marks.len().min(MOST_MISTAKES) as f32);
+    let row = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
+    let below = row * (1.0 + marks.len().min(MOST_MISTAKES) as f32) + 6.0;
     let area = ui.available_rect_before_wrap();
     let height = (area.height() - below).max(60.0);
     let rect = egui::Rect::from_min_size(area.min, egui::vec2(area.width(), height));
@@ -191,7 +197,7 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
         marks,
         found: code_panel.find.found(),
         go: place.or(code_panel.choose.take()),
-        focus: focus && !code_panel.find.has_keys,
+        focus,
     };
     let mut child = ui.new_child(egui::UiBuilder::new().max_rect(rect));
     code_panel.field.show(&mut child, document, &shown);

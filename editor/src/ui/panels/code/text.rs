@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::{TextEditOutput, TextEditState};
 use egui::{
-    Align, Align2, Color32, Frame, Galley, Id, Key, Modifiers, Rect, RichText, ScrollArea,
+    Align, Align2, Color32, Event, Frame, Galley, Id, Key, Modifiers, Rect, RichText, ScrollArea,
     Shape, Stroke, TextBuffer, TextEdit, Ui, pos2, vec2,
 };
 
@@ -47,6 +47,8 @@ pub struct Shown<'a> {
 #[derive(Default)]
 pub struct TextField {
     lines: Lines,
+    /// The file that was shown last.
+    path: String,
     /// The letters that are chosen, for who acts on them.
     pub chosen: Range<usize>,
     /// Whether the field had the keys.
@@ -71,12 +73,17 @@ impl TextField {
         let language = Language::of(&document.path);
         let editable = !document.is_shipped();
         let has_keys = ui.memory(|memory| memory.has_focus(id));
-        let wrote = editable && has_keys && self.special_keys(ui, document, id, language);
+        let wrote = editable && has_keys && line_keys(ui, document, id, language);
+        if self.path != document.path {
+            self.path.clone_from(&document.path);
+            self.chosen = chosen_letters(ui, id);
+        }
         if let Some(range) = &shown.go {
             let letters = |byte| letters_before(&document.text, byte);
-            choose(ui, id, letters(range.start)..letters(range.end));
+            self.chosen = letters(range.start)..letters(range.end);
+            choose(ui, id, self.chosen.clone());
         }
-        if shown.focus || shown.go.is_some() {
+        if shown.focus {
             ui.memory_mut(|memory| memory.request_focus(id));
         }
 
@@ -96,7 +103,7 @@ impl TextField {
             .show(&mut inner, |ui| {
                 let behind = ui.painter().add(Shape::Noop);
                 let output = self.edit(ui, document, id, language, &whole);
-                let shapes = backgrounds(ui, &output, shown);
+                let shapes = backgrounds(ui, &output, shown, &self.chosen);
                 ui.painter().set(behind, shapes);
                 marks(ui, &output, document, shown.marks);
                 if let Some(range) = output.cursor_range.filter(|_| wrote) {
@@ -143,6 +150,7 @@ impl TextField {
             .desired_width(f32::INFINITY)
             .min_size(vec2(width, height))
             .lock_focus(true)
+            .cursor_at_end(false)
             .layouter(&mut layouter)
             .show(ui);
         if output.response.changed() {
@@ -156,39 +164,77 @@ impl TextField {
         output
     }
 
-    /// Tab, Enter and Ctrl with `/` do more than to write a letter. Returns whether one was pressed.
-    fn special_keys(
-        &self,
-        ui: &Ui,
-        document: &mut Document,
-        id: Id,
-        language: Language,
-    ) -> bool {
-        let press = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
-        let (text, chosen) = (&document.text, &self.chosen);
-        let edit = if press(Modifiers::SHIFT, Key::Tab) {
-            typing::outdent(text, chosen)
-        } else if press(Modifiers::NONE, Key::Tab) {
-            typing::indent(text, chosen)
-        } else if press(Modifiers::NONE, Key::Enter) {
-            typing::new_line(text, chosen)
-        } else if press(Modifiers::COMMAND, Key::Slash) {
-            typing::toggle_comment(text, chosen, language.comment())
-        } else {
-            return false;
-        };
-        write(ui, document, id, &edit);
-        true
-    }
+}
+
+/// Enter and Tab write more than one letter. Each takes its turn among the letters that were typed
+/// since the last frame.
+fn longer_letters(ui: &Ui, text: &str, chosen: &Range<usize>) {
+    let mut before = typing::line_before(text, chosen.start).to_owned();
+    ui.input_mut(|input| {
+        for event in &mut input.events {
+            let written = match event {
+                Event::Text(letters) => {
+                    before.push_str(letters);
+                    continue;
+                }
+                Event::Key {
+                    key,
+                    pressed: true,
+                    modifiers,
+                    ..
+                } if modifiers.is_none() => match key {
+                    Key::Enter => typing::line_break(&before),
+                    Key::Tab => typing::blanks(&before),
+                    _ => continue,
+                },
+                _ => continue,
+            };
+            let start = written.rfind('\n').map(|at| at + 1);
+            match start {
+                Some(start) => written[start..].clone_into(&mut before),
+                None => before.push_str(&written),
+            }
+            // The field takes a bare line's end from the key alone.
+            if written != "\n" {
+                *event = Event::Text(written);
+            }
+        }
+    });
+}
+
+/// Keys that change whole lines. Returns whether one was pressed.
+fn line_keys(ui: &Ui, document: &mut Document, id: Id, language: Language) -> bool {
+    let press = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
+    let chosen = chosen_letters(ui, id);
+    let text = &document.text;
+    let edit = if press(Modifiers::SHIFT, Key::Tab) {
+        typing::outdent(text, &chosen)
+    } else if typing::has_lines(text, &chosen) && press(Modifiers::NONE, Key::Tab) {
+        typing::indent(text, &chosen)
+    } else if press(Modifiers::COMMAND, Key::Slash) {
+        typing::toggle_comment(text, &chosen, language.comment())
+    } else {
+        longer_letters(ui, text, &chosen);
+        return false;
+    };
+    write(ui, document, id, &edit);
+    true
+}
+
+/// The letters that a field has chosen, in order.
+fn chosen_letters(ui: &Ui, id: Id) -> Range<usize> {
+    let state = TextEditState::load(ui.ctx(), id);
+    let range = state.and_then(|state| state.cursor.char_range());
+    let letters = range.unwrap_or_default().as_sorted_char_range();
+    letters.start.0..letters.end.0
 }
 
 /// Makes a change that can be taken back as what is typed.
 fn write(ui: &Ui, document: &mut Document, id: Id, edit: &Edit) {
-    let letters = |byte| letters_before(&document.text, byte);
-    let before = letters(edit.range.start)..letters(edit.range.end);
     let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
     let mut undoer = state.undoer();
-    undoer.add_undo(&(range_of_letters(&before), document.text.clone()));
+    let before = state.cursor.char_range().unwrap_or_default();
+    undoer.add_undo(&(before, document.text.clone()));
     state.set_undoer(undoer);
     edit.apply(&mut document.text);
     document.touch();
@@ -217,7 +263,12 @@ fn rows_in_sight(galley: &Galley, top: f32, clip: Rect) -> Range<usize> {
 }
 
 /// Behind the text: the line of the caret, lines with mistakes, and what was found.
-fn backgrounds(ui: &Ui, output: &TextEditOutput, shown: &Shown) -> Shape {
+fn backgrounds(
+    ui: &Ui,
+    output: &TextEditOutput,
+    shown: &Shown,
+    chosen: &Range<usize>,
+) -> Shape {
     let palette = Palette::of(ui);
     let clip = ui.clip_rect();
     let (galley, at) = (&output.galley, output.galley_pos);
@@ -241,14 +292,17 @@ fn backgrounds(ui: &Ui, output: &TextEditOutput, shown: &Shown) -> Shape {
         let rect = band(mark.line.saturating_sub(1));
         shapes.extend(rect.map(|rect| Shape::rect_filled(rect, 0.0, fill)));
     }
-    let fill = palette.warning.gamma_multiply(0.35);
     let sight = rows_in_sight(galley, at.y, clip);
     let text = galley.job.text.as_str();
     let (from, to) = bytes_of_rows(text, &sight);
     let first = shown.found.partition_point(|found| found.end < from);
     for found in shown.found[first..].iter().take_while(|found| found.start < to) {
-        let place = |byte| galley.pos_from_cursor(CCursor::new(letters_before(text, byte)));
-        let (start, end) = (place(found.start), place(found.end));
+        let letters = letters_before(text, found.start)..letters_before(text, found.end);
+        let is_chosen = letters == *chosen;
+        let strength = if is_chosen { 0.6 } else { 0.25 };
+        let fill = palette.warning.gamma_multiply(strength);
+        let place = |letter| galley.pos_from_cursor(CCursor::new(letter));
+        let (start, end) = (place(letters.start), place(letters.end));
         let rect = Rect::from_min_max(start.left_top(), end.right_bottom());
         shapes.push(Shape::rect_filled(rect.translate(at.to_vec2()), 1.0, fill));
     }
