@@ -67,6 +67,22 @@ pub enum Action {
     SwitchTheme,
     /// What can be done with mouse and keys.
     Help,
+    /// Open the script of the scene.
+    EditScene,
+    /// Open the file of the pipeline.
+    EditPipeline,
+    /// Save the file that is shown.
+    SaveFile,
+    /// Go on with another project.
+    OpenProject,
+    /// Open a scene, a pipeline or a model.
+    OpenScene,
+    /// Write the scene to a file.
+    SaveSceneAs,
+    /// Show scenes, pipelines and examples.
+    Gallery,
+    /// Say what to try first.
+    Welcome,
     /// What this program is.
     About,
     /// Close the window.
@@ -121,6 +137,26 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
             &[
                 entry(Action::Palette, "Find an action", command(Key::P)),
                 entry(Action::Reload, "Reload everything", key(Key::F5)),
+            ],
+            &[
+                entry(Action::Gallery, "Gallery", None),
+                entry(Action::OpenProject, "Open a project", None),
+                // Before the key without Shift, which fits both.
+                entry(
+                    Action::SaveSceneAs,
+                    "Save the scene as",
+                    Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::S)),
+                ),
+                entry(Action::OpenScene, "Open a scene", command(Key::O)),
+            ],
+            &[
+                entry(
+                    Action::EditScene,
+                    "Edit the scene's script",
+                    command(Key::E),
+                ),
+                entry(Action::EditPipeline, "Edit the pipeline's file", None),
+                entry(Action::SaveFile, "Save the file", command(Key::S)),
             ],
             &[entry(Action::Quit, "Quit", command(Key::Q))],
         ],
@@ -207,6 +243,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
                 entry(Action::Toggle(Panel::History), "History", None),
                 entry(Action::Toggle(Panel::Compare), "Comparison", None),
                 entry(Action::Toggle(Panel::Notebook), "Notebook", None),
+                entry(Action::Toggle(Panel::Code), "Code", None),
             ],
             &[
                 entry(Action::ResetLayout, "Reset the layout", None),
@@ -257,6 +294,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
     (
         "Help",
         &[&[
+            entry(Action::Welcome, "Welcome", None),
             entry(Action::Help, "Mouse and keys", key(Key::F1)),
             entry(Action::About, "About Lightbench", None),
         ]],
@@ -324,7 +362,7 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         // Keys are for its amount.
         return;
     }
-    if editor.palette.is_some() {
+    if editor.palette.is_some() || editor.has_question() {
         return;
     }
     // Escape closes a menu or leaves a field first.

@@ -9,8 +9,12 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
+use super::code::Code;
+use super::dialogs::{Dialogs, Question};
+use super::gallery::Gallery;
 use super::kept::Kept;
 use super::layout::{self, Panel};
+use super::panels::code::CodePanel;
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
 use super::panels::marks::Marks;
@@ -35,6 +39,15 @@ pub struct Editor {
     pub(super) entities: EntitiesPanel,
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
+    /// The files that are open.
+    pub code: Code,
+    pub(super) code_panel: CodePanel,
+    /// What there is to look at.
+    pub gallery: Gallery,
+    /// Whether it is said what to try first.
+    pub welcome: bool,
+    /// Questions for files and folders.
+    pub dialogs: Dialogs,
     pub(super) viewport: ViewportPanel,
     pub(super) notebook: NotebookPanel,
     /// The window in which a view is pasted, while it is open.
@@ -53,6 +66,8 @@ pub struct Editor {
     quit: bool,
     /// Whether a widget had the keys in the last frame.
     pub(super) was_typing: bool,
+    /// Whether the window had the keys in the last frame.
+    pub(super) was_focused: bool,
     /// The file that was brought last.
     opened: Option<PathBuf>,
     /// The swap of scenes that is kept among those of late.
@@ -67,10 +82,20 @@ impl Editor {
         kept: Kept,
     ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
+        let code = Code::new(kept.unsaved_folder(), workbench.files());
+        let mut layout = layout::first();
+        if !code.offered.is_empty() {
+            layout::set_visible(&mut layout, Panel::Code, true);
+        }
         Self {
+            code,
+            code_panel: CodePanel::default(),
+            dialogs: Dialogs::default(),
+            gallery: Gallery::new(),
+            welcome: kept.is_new,
             workbench,
             screen,
-            layout: layout::first(),
+            layout,
             passes: PassesPanel::default(),
             targets: TargetsPanel::default(),
             entities: EntitiesPanel::default(),
@@ -88,6 +113,7 @@ impl Editor {
             about: false,
             quit: false,
             was_typing: false,
+            was_focused: true,
             opened: None,
             remembered: 0,
         }
@@ -96,6 +122,7 @@ impl Editor {
     /// Goes on with another device and painter; what was edited stays.
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
+        self.gallery.thumbnails.forget();
         self.workbench.move_to(gpu);
     }
 
@@ -114,6 +141,8 @@ impl Editor {
         let now = Instant::now();
         self.workbench.tick(now);
         let ctx = ui.ctx().clone();
+        self.tend_code(now, ctx.input(|input| input.focused));
+        panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
 
         egui::Panel::top("menu").show(ui, |ui| panels::menu::show(self, ui));
@@ -136,8 +165,12 @@ impl Editor {
             layout::set_visible(&mut self.layout, panel, true);
         }
         panels::help::show(self, &ctx);
+        panels::welcome::show(self, &ctx);
+        panels::gallery::show(self, &ctx);
         panels::palette::show(self, &ctx);
         panels::view_text::show(self, &ctx);
+        panels::code::leaving::show(self, &ctx);
+        self.follow_dialogs(&ctx);
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -147,7 +180,8 @@ impl Editor {
             self.workbench.undo.seal();
         }
 
-        if let Some(due) = self.workbench.next_due(now) {
+        let due = [self.workbench.next_due(now), self.code.next_due(now)];
+        if let Some(due) = due.into_iter().flatten().min() {
             ctx.request_repaint_after(due);
         }
     }
@@ -197,7 +231,21 @@ impl Editor {
             }
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
-            Action::Quit => self.quit = true,
+            Action::EditScene => self.edit_scene(),
+            Action::EditPipeline => self.edit_pipeline(),
+            Action::SaveFile => self.save_shown_file(),
+            Action::OpenProject => self.ask_for(Question::Project),
+            Action::OpenScene => self.ask_for(Question::Scene),
+            Action::SaveSceneAs => self.ask_for(Question::SaveScene),
+            Action::Gallery => {
+                let (files, wake) = (
+                    self.workbench.files().clone(),
+                    self.workbench.wake().clone(),
+                );
+                self.gallery.open(&files, &wake);
+            }
+            Action::Welcome => self.welcome = true,
+            Action::Quit => self.ask_to_quit(),
         }
     }
 
@@ -213,13 +261,27 @@ impl Editor {
 
     /// Opens a file that somebody brought.
     pub(super) fn open_file(&mut self, file: &Path) {
-        match self.workbench.open_file(file) {
-            Ok(()) => self.opened = std::path::absolute(file).ok(),
-            Err(why) => {
-                self.workbench.log.error(why);
-                layout::set_visible(&mut self.layout, Panel::Log, true);
-            }
+        if let Err(why) = self.try_to_open_file(file) {
+            self.workbench.log.error(why);
+            layout::set_visible(&mut self.layout, Panel::Log, true);
         }
+    }
+
+    /// The same; what keeps the file from being opened is told.
+    pub(super) fn try_to_open_file(&mut self, file: &Path) -> Result<(), String> {
+        self.workbench.open_file(file)?;
+        self.opened = std::path::absolute(file).ok();
+        Ok(())
+    }
+
+    /// The file that was brought last is none of the present project.
+    pub(super) fn forget_opened_file(&mut self) {
+        self.opened = None;
+    }
+
+    /// Closes the window in the next frame.
+    pub(super) fn quit(&mut self) {
+        self.quit = true;
     }
 
     /// Opens the files that were dropped onto the window.
@@ -291,6 +353,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::History => panels::history::show(self.editor, ui),
             Panel::Compare => panels::compare::show(self.editor, ui),
             Panel::Notebook => panels::notebook::show(self.editor, ui),
+            Panel::Code => panels::code::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

@@ -17,6 +17,8 @@ const MOST_SCENES: usize = 8;
 #[derive(Debug, Default)]
 pub struct Kept {
     path: Option<PathBuf>,
+    /// Whether there was no file yet: the editor starts for the first time.
+    pub is_new: bool,
     /// Lines of the console, oldest first.
     pub console: Vec<String>,
     /// Scenes of late, the last one first: names, or paths of files outside the project.
@@ -73,12 +75,18 @@ impl Kept {
             _ => BTreeMap::new(),
         };
         Self {
+            is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
             scenes,
             favourites,
             others,
         }
+    }
+
+    /// The folder of texts that are not saved, beside the file.
+    pub fn unsaved_folder(&self) -> Option<PathBuf> {
+        Some(self.path.as_ref()?.parent()?.join("unsaved"))
     }
 
     /// Keeps a line of the console.

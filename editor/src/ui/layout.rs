@@ -35,6 +35,8 @@ pub enum Panel {
     Compare,
     /// What was measured and kept.
     Notebook,
+    /// Scripts and shaders.
+    Code,
 }
 
 impl Panel {
@@ -56,6 +58,7 @@ impl Panel {
             Self::History => "History",
             Self::Compare => "Compare",
             Self::Notebook => "Notebook",
+            Self::Code => "Code",
         }
     }
 }
@@ -70,6 +73,7 @@ pub fn first() -> Tree<Panel> {
             .collect();
         tiles.insert_tab_tile(panes)
     };
+    let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
     let log = tabs(&[
         Panel::Log,
@@ -100,9 +104,12 @@ pub fn first() -> Tree<Panel> {
     let root = split(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(left, 0.62), (right, 0.38)],
+        &[(code, 0.5), (left, 0.62), (right, 0.38)],
     );
-    Tree::new(egui::Id::unique("panels"), root, tiles)
+    let mut tree = Tree::new(egui::Id::unique("panels"), root, tiles);
+    // It takes its place when a file is opened.
+    set_visible(&mut tree, Panel::Code, false);
+    tree
 }
 
 fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {

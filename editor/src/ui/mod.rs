@@ -5,8 +5,12 @@
 
 pub mod actions;
 pub mod bench;
+pub mod code;
+mod coding;
 pub mod compare_actions;
+pub mod dialogs;
 pub mod editor;
+pub mod gallery;
 pub mod kept;
 pub mod layout;
 pub mod lens;

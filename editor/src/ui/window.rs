@@ -10,6 +10,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
+use super::gallery::thumbnails;
 use super::kept::Kept;
 use super::surface::WindowSurface;
 use super::workbench::Workbench;
@@ -87,7 +88,8 @@ impl Program {
         );
         let kept = Kept::read(options.kept.clone());
         let workbench = Workbench::new(gpu, options, wake);
-        let editor = Editor::new(workbench, surface.painter(), kept);
+        let mut editor = Editor::new(workbench, surface.painter(), kept);
+        editor.gallery.thumbnails.folder = thumbnails::default_folder();
         window.request_redraw();
         self.running = Some(Running {
             surface,
@@ -234,7 +236,12 @@ impl ApplicationHandler<Repaint> for Program {
                 return;
             }
             WindowEvent::CloseRequested => {
-                events.exit();
+                running.editor.ask_to_quit();
+                if running.editor.wants_to_quit() {
+                    events.exit();
+                } else {
+                    running.window.request_redraw();
+                }
                 return;
             }
             WindowEvent::Resized(size) => running.surface.resize(size.width, size.height),

@@ -29,6 +29,13 @@ use tempfile::TempDir;
 /// How long anything may take.
 pub const PATIENCE: Duration = Duration::from_secs(120);
 
+/// Ctrl as keyboards send it.
+pub const CTRL: egui::Modifiers = egui::Modifiers {
+    ctrl: true,
+    command: true,
+    ..egui::Modifiers::NONE
+};
+
 /// The editor on a project of its own.
 pub struct Bench {
     /// The project's files.
@@ -47,7 +54,16 @@ impl Bench {
 
     /// The same, with a file of what is kept over restarts.
     pub fn open_with(kept: Option<PathBuf>) -> Self {
-        let project = tempfile::tempdir().unwrap();
+        Self::open_project(tempfile::tempdir().unwrap(), kept)
+    }
+
+    /// The same, in a folder that may have files.
+    pub fn open_project(project: TempDir, kept: Option<PathBuf>) -> Self {
+        Self::open_project_of("cornell_box", project, kept)
+    }
+
+    /// The same, with another scene.
+    pub fn open_project_of(scene: &str, project: TempDir, kept: Option<PathBuf>) -> Self {
         let files = Files::with_project(project.path()).unwrap();
         let gpu = Gpu::open(&GpuOptions::default()).unwrap();
         let format = wgpu::TextureFormat::Rgba8Unorm;
@@ -65,7 +81,7 @@ impl Bench {
         };
         let renderer = WgpuTestRenderer::from_render_state(state);
         let options = EditorOptions {
-            scene: "cornell_box".to_owned(),
+            scene: scene.to_owned(),
             worker: WorkerOptions {
                 program: Some(PathBuf::from(env!("CARGO_BIN_EXE_lightbench"))),
                 limits: None,
@@ -74,7 +90,9 @@ impl Bench {
         };
         let mut workbench = Workbench::new(gpu, options, Arc::new(|| {}));
         workbench.resolution.adaptive = false;
-        let editor = Editor::new(workbench, painter, Kept::read(kept));
+        let mut editor = Editor::new(workbench, painter, Kept::read(kept));
+        // No window of the system opens in a test.
+        editor.dialogs.native = false;
         let harness = Harness::builder()
             .with_size(egui::vec2(1100.0, 760.0))
             .renderer(renderer)
@@ -95,6 +113,35 @@ impl Bench {
         });
         bench.harness.run_steps(2);
         bench
+    }
+
+    /// Ends the editor and gives back its project.
+    pub fn close(self) -> TempDir {
+        let Self {
+            harness, _project, ..
+        } = self;
+        drop(harness);
+        _project
+    }
+
+    /// Presses a key with others held, and lets some frames pass.
+    pub fn key(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.harness.run_steps(3);
+    }
+
+    /// Types letters, without keys that do something else.
+    pub fn type_text(&mut self, text: &str) {
+        self.harness.event(egui::Event::Text(text.to_owned()));
+        self.harness.run_steps(2);
+    }
+
+    /// Clicks the button of that name.
+    pub fn press(&mut self, label: &str) {
+        self.harness
+            .get_by_role_and_label(Role::Button, label)
+            .click();
+        self.harness.run_steps(3);
     }
 
     /// Runs frames until something is true.

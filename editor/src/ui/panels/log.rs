@@ -2,6 +2,7 @@
 
 use egui::{Rect, RichText, ScrollArea, Ui, pos2};
 
+use super::widgets;
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::log::Level;
@@ -10,6 +11,7 @@ use crate::ui::workbench::log::Level;
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let log = &mut editor.workbench.log;
     let mut clear = false;
+    let mut wanted = None;
     let corner = ui.max_rect().right_top();
     let button = Rect::from_min_max(
         pos2(corner.x - 58.0, corner.y),
@@ -31,9 +33,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                     Level::Warning => palette.warning,
                     Level::Error => palette.error,
                 };
-                if let Some(place) = &line.place {
-                    let text = RichText::new(place.to_string()).monospace();
-                    ui.label(text.color(palette.accent));
+                if let Some(place) = &line.place
+                    && widgets::place(ui, place, palette.accent)
+                {
+                    wanted = Some(place.clone());
                 }
                 ui.label(RichText::new(&line.text).color(color));
                 if line.count > 1 {
@@ -47,5 +50,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
     if clear {
         log.clear();
+    }
+    if let Some(place) = wanted {
+        editor.go_to(&place);
     }
 }

@@ -1,9 +1,11 @@
 //! The panels of the window.
 
 pub mod actions;
+pub mod code;
 pub mod compare;
 pub mod console;
 pub mod entities;
+pub mod gallery;
 pub mod handles;
 pub mod heat_map;
 pub mod help;
@@ -28,4 +30,5 @@ pub mod targets;
 pub mod toolbar;
 pub mod view_text;
 pub mod viewport;
+pub mod welcome;
 mod widgets;

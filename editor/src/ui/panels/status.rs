@@ -8,6 +8,7 @@ use crate::ui::theme::Palette;
 
 /// Draws the status bar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    let mut wanted = None;
     let workbench = &editor.workbench;
     let summary = &workbench.gpu().summary;
     ui.horizontal(|ui| {
@@ -23,6 +24,19 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             }
             ui.separator();
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let count = workbench.problems().count();
+                if let Some(first) = workbench.problems().next() {
+                    let text = match count {
+                        1 => "1 mistake:".to_owned(),
+                        count => format!("{count} mistakes:"),
+                    };
+                    let color = Palette::of(ui).error;
+                    ui.label(RichText::new(text).color(color));
+                    if widgets::place(ui, &first.place, color) {
+                        wanted = Some(first.place.clone());
+                    }
+                    ui.separator();
+                }
                 let text = format!(
                     "{} · {} · {}",
                     summary.name, summary.backend, summary.driver_info
@@ -45,4 +59,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             });
         });
     });
+    if let Some(place) = wanted {
+        editor.go_to(&place);
+    }
 }

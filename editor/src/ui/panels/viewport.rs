@@ -12,7 +12,7 @@ use lightbench::world::glam::{Vec2, Vec3};
 
 use super::handles::{self, Handles};
 use super::marks::Mark;
-use super::{compare, heat_map, marks, select, stepping};
+use super::{compare, heat_map, marks, select, stepping, widgets};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::lens::Lens;
@@ -97,7 +97,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         let text = format!("{:.0} % resolution while moving", scale * 100.0);
         note(ui, rect, Align2::RIGHT_TOP, &text);
     }
-    if editor.hint {
+    if editor.hint && !editor.welcome {
         hint(editor, ui, rect);
     }
 }
@@ -254,9 +254,10 @@ fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
 }
 
 /// The mistakes that keep the newest state off the screen, over the last good picture.
-fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
+fn problems(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let workbench = &editor.workbench;
     let count = workbench.problems().count();
+    let mut wanted = None;
     if count == 0 {
         return;
     }
@@ -275,7 +276,9 @@ fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
             if index > 0 {
                 ui.separator();
             }
-            one_problem(ui, problem, palette);
+            if one_problem(ui, problem, palette) {
+                wanted = Some(problem.place.clone());
+            }
         }
         if count > MOST_PROBLEMS {
             ui.label(RichText::new(format!("{} more in the log", count - MOST_PROBLEMS)).weak());
@@ -285,14 +288,14 @@ fn problems(editor: &Editor, ui: &mut Ui, rect: Rect) {
             ui.label(RichText::new("The last good picture stays until this is mended.").weak());
         }
     });
+    if let Some(place) = wanted {
+        editor.go_to(&place);
+    }
 }
 
-fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) {
-    ui.label(
-        RichText::new(problem.place.to_string())
-            .monospace()
-            .color(palette.error),
-    );
+/// Returns whether somebody wants to see its place.
+fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) -> bool {
+    let clicked = widgets::place(ui, &problem.place, palette.error);
     ui.label(&problem.message);
     if let Some(line) = &problem.source_line {
         let mut text = line.replace('\t', "    ");
@@ -308,6 +311,7 @@ fn one_problem(ui: &mut Ui, problem: &Problem, palette: Palette) {
     if let Some(hint) = &problem.hint {
         ui.label(RichText::new(hint).italics());
     }
+    clicked
 }
 
 /// How far the next scene is, and that the first pipeline is built.
@@ -350,9 +354,9 @@ pub(super) fn note(ui: &Ui, rect: Rect, align: Align2, text: &str) {
 fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let palette = Palette::of(ui);
     let third = if editor.workbench.files().project().is_some() {
-        "Save a shader or script of your project, and the picture follows."
+        "Ctrl+E shows the scene's script. Save, here or in another program, and the picture follows."
     } else {
-        "To change shaders and scripts, make a project: lightbench new project DIR"
+        "Ctrl+E shows the scene's script. To change it, open a project: File, Open a project."
     };
     let lines = [
         "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",

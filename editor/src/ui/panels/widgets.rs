@@ -1,7 +1,9 @@
 //! Small pieces that several panels use.
 
-use egui::{Color32, ComboBox, Response, Sense, Stroke, Ui, pos2};
+use egui::{Color32, ComboBox, Label, Response, RichText, Sense, Stroke, Ui, pos2};
+use lightbench::render::Place;
 
+use crate::ui::coding::is_in_a_file;
 use crate::ui::workbench::timing::{Series, WINDOW};
 
 /// What stands where a number is missing.
@@ -37,6 +39,20 @@ pub fn combo_of(
     let response = combo.show_ui(ui, entries).response;
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, label));
     response
+}
+
+/// The place of a mistake. Returns whether somebody wants to see it.
+pub fn place(ui: &mut Ui, place: &Place, color: Color32) -> bool {
+    let text = RichText::new(place.to_string()).monospace().color(color);
+    if !is_in_a_file(place) {
+        ui.label(text);
+        return false;
+    }
+    let label = Label::new(text.underline()).sense(Sense::click());
+    let label = ui.add(label).on_hover_text("Show it in Code");
+    label
+        .on_hover_cursor(egui::CursorIcon::PointingHand)
+        .clicked()
 }
 
 /// A count with thin groups of three digits.

@@ -27,6 +27,7 @@ pub mod picking;
 pub mod pipelines;
 mod play;
 pub mod probing;
+mod project;
 pub mod reporting;
 pub mod resolution;
 mod returning;
@@ -76,7 +77,7 @@ use self::timing::Timings;
 use self::trends::Trends;
 use self::undo::Undo;
 use self::viewing::Arriving;
-use self::watching::Watch;
+use self::watching::{Touched, Watch};
 use super::EditorOptions;
 
 /// Called from any thread when there is something for [`Workbench::tick`].
@@ -90,6 +91,8 @@ pub struct Workbench {
     wake: Wake,
     renderer: Renderer,
     watch: Watch,
+    /// What changed on the disk, for who shows files.
+    touched: Option<Touched>,
     canvas: Canvas,
     last_tick: Option<Instant>,
     lost: Option<String>,
@@ -176,6 +179,7 @@ impl Workbench {
             scenes: Scenes::new(files.clone(), wake.clone()),
             pipelines,
             watch,
+            touched: None,
             renderer,
             resolution,
             log,
@@ -321,6 +325,7 @@ impl Workbench {
 
     /// Reads and builds everything again.
     pub fn reload(&mut self) {
+        self.touched.get_or_insert_default().everything = true;
         let all = self.files.list("shaders", "wgsl").unwrap_or_default();
         let mut paths: Vec<String> = all.into_iter().map(|entry| entry.path).collect();
         paths.push(format!("{}/", lightbench::script::PIPELINES));
@@ -376,6 +381,8 @@ impl Workbench {
 
     /// Tells that project files changed: only what depends on them is built again.
     pub fn files_changed(&mut self, paths: &[String]) {
+        let touched = self.touched.get_or_insert_default();
+        touched.paths.extend(paths.iter().cloned());
         self.pipelines.changed(paths);
         self.other_files_changed(paths);
         self.scenes.changed(paths);

@@ -22,12 +22,12 @@ impl Workbench {
         let kind = file.extension().and_then(|kind| kind.to_str());
         let kind = kind.map(str::to_lowercase);
         let is_model = match kind.as_deref() {
-            Some("rhai") => false,
+            Some("rhai" | "scene") => false,
             Some("obj" | "gltf" | "glb") => true,
             _ => {
                 return Err(format!(
                     "{} is no scene, pipeline or model: the editor opens files that end in .rhai, \
-                     .obj, .gltf and .glb",
+                     .scene, .obj, .gltf and .glb",
                     file.display()
                 ));
             }

@@ -1,5 +1,6 @@
 //! Files of the project that change while the editor runs.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use lightbench::assets::files::Files;
@@ -7,6 +8,15 @@ use lightbench::assets::watch::{Changes, Watcher};
 
 use super::Wake;
 use super::log::Log;
+
+/// What changed on the disk.
+#[derive(Debug, Default)]
+pub(in crate::ui) struct Touched {
+    /// Files, for [`Files::read`].
+    pub(in crate::ui) paths: BTreeSet<String>,
+    /// Anything may have changed.
+    pub(in crate::ui) everything: bool,
+}
 
 /// The watched project, if there is one.
 pub(super) struct Watch(Option<Watcher>);
@@ -27,6 +37,11 @@ impl Watch {
                 Self(None)
             }
         }
+    }
+
+    /// Whether there is something that is watched.
+    pub(super) fn is_on(&self) -> bool {
+        self.0.is_some()
     }
 
     /// What changed since the last call.

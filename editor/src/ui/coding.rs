@@ -1,0 +1,270 @@
+//! What the editor does with the files that are open in the panel Code, and with projects.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use lightbench::assets::files::create_project;
+use lightbench::render::Place;
+use lightbench::script::{PIPELINES, SCENE_EXTENSION, SCENES};
+
+use super::code::document::SaveError;
+use super::code::{Leaving, Spot};
+use super::dialogs::Question;
+use super::editor::Editor;
+use super::layout::Panel;
+
+/// The file of a scene or a pipeline that is known by its name.
+fn file_of(folder: &str, name: &str) -> String {
+    if name.contains('/') {
+        name.to_owned()
+    } else {
+        format!("{folder}/{name}.rhai")
+    }
+}
+
+/// Whether a place is one in a file that can be shown.
+pub fn is_in_a_file(place: &Place) -> bool {
+    place.file.ends_with(".rhai") || place.file.ends_with(".wgsl")
+}
+
+impl Editor {
+    /// Opens a script or a shader, with the caret at a place.
+    pub fn open_code(&mut self, path: &str, spot: Option<Spot>) {
+        if let Err(error) = self.code.open(self.workbench.files(), path, spot) {
+            self.workbench.log.error(error.to_string());
+            self.show(Panel::Log);
+            return;
+        }
+        self.show(Panel::Code);
+        self.code_panel.focus();
+    }
+
+    /// Shows the place of a mistake.
+    pub fn go_to(&mut self, place: &Place) {
+        let spot = Spot {
+            line: place.line.max(1) as usize,
+            column: place.column as usize,
+        };
+        self.open_code(&place.file, Some(spot));
+    }
+
+    /// Opens the script of the scene.
+    pub(super) fn edit_scene(&mut self) {
+        let name = self.workbench.scenes.selected();
+        let path = file_of(SCENES, name);
+        self.open_code(&path, None);
+    }
+
+    /// Opens the file of the pipeline.
+    pub(super) fn edit_pipeline(&mut self) {
+        let path = file_of(PIPELINES, self.workbench.pipelines.selected());
+        self.open_code(&path, None);
+    }
+
+    /// Saves the file that is shown.
+    pub(super) fn save_shown_file(&mut self) {
+        if let Some(document) = self.code.shown() {
+            let path = document.path.clone();
+            self.save_file(&path);
+        }
+    }
+
+    /// Saves an open file. Returns whether it is saved.
+    pub(super) fn save_file(&mut self, path: &str) -> bool {
+        let open = self.code.documents().iter();
+        let Some(index) = open
+            .enumerate()
+            .find_map(|(i, open)| (open.path == path).then_some(i))
+        else {
+            return true;
+        };
+        self.code.show(index);
+        let saved = self.code.save(self.workbench.files());
+        self.was_saved(saved, &[path.to_owned()])
+    }
+
+    /// Saves all open files. Returns whether all are saved.
+    pub(super) fn save_all_files(&mut self) -> bool {
+        let paths: Vec<String> = self.code.unsaved().map(|open| open.path.clone()).collect();
+        let saved = self.code.save_all(self.workbench.files());
+        self.was_saved(saved, &paths)
+    }
+
+    fn was_saved(&mut self, saved: Result<(), SaveError>, paths: &[String]) -> bool {
+        // What is watched tells of itself.
+        let unwatched = |path: &String| path.starts_with('@') || !self.workbench.is_watching();
+        let unwatched: Vec<String> = paths
+            .iter()
+            .filter(|path| unwatched(path))
+            .cloned()
+            .collect();
+        if !unwatched.is_empty() {
+            self.workbench.files_changed(&unwatched);
+        }
+        match saved {
+            Ok(()) => true,
+            Err(error) => {
+                self.workbench.log.error(format!("Not saved: {error}."));
+                false
+            }
+        }
+    }
+
+    /// Copies the file that is shown into the project, where it can be changed.
+    pub(super) fn copy_shown_file(&mut self) {
+        let Some(path) = self.code.shown().map(|document| document.path.clone()) else {
+            return;
+        };
+        self.copy_into_project(&path);
+        self.code_panel.focus();
+    }
+
+    /// Copies a shipped file into the project. Returns whether it is there.
+    pub(super) fn copy_into_project(&mut self, path: &str) -> bool {
+        match self.workbench.files().copy_to_project(path) {
+            Ok(place) => {
+                let text = format!("{path} is now in the project: {}.", place.display());
+                self.workbench.log.info(text);
+                let paths = [path.to_owned()];
+                self.code.refresh(self.workbench.files(), Some(&paths));
+                if !self.workbench.is_watching() {
+                    self.workbench.files_changed(&paths);
+                }
+                true
+            }
+            Err(error) => {
+                self.workbench.log.error(error.to_string());
+                self.show(Panel::Log);
+                false
+            }
+        }
+    }
+
+    /// Opens a text that a crash has left.
+    pub(super) fn restore_draft(&mut self, index: usize) {
+        let mut files = self.workbench.files().clone();
+        self.code.restore(&mut files, index);
+        self.workbench.use_files(files);
+        self.show(Panel::Code);
+        self.code_panel.focus();
+    }
+
+    /// Closes the window, after what was not saved was decided about.
+    pub fn ask_to_quit(&mut self) {
+        if self.code.unsaved().next().is_some() {
+            self.code.leaving = Some(Leaving::Window);
+        } else {
+            self.quit();
+        }
+    }
+
+    /// Takes in what changed on the disk, and keeps what is not saved.
+    pub(super) fn tend_code(&mut self, now: Instant, focused: bool) {
+        if focused && !self.was_focused {
+            // Who comes back from another program may have saved something that is not watched.
+            self.code.refresh(self.workbench.files(), None);
+        }
+        self.was_focused = focused;
+        if let Some(touched) = self.workbench.take_touched() {
+            let paths: Vec<String> = touched.paths.into_iter().collect();
+            let changed = (!touched.everything).then_some(paths.as_slice());
+            self.code.refresh(self.workbench.files(), changed);
+        }
+        for error in self.code.note(now) {
+            self.workbench.log.error(error);
+        }
+    }
+
+    /// Whether something is asked that comes before all else.
+    pub(super) fn has_question(&self) -> bool {
+        self.code.leaving.is_some() || self.dialogs.is_typing()
+    }
+
+    /// Asks for a file or a folder.
+    pub(super) fn ask_for(&mut self, question: Question) {
+        let project = self.workbench.files().project();
+        let begin_at = match question {
+            Question::Project => project.and_then(Path::parent).map(Path::to_owned),
+            Question::Scene | Question::SaveScene => project
+                .map(|project| project.join(SCENES))
+                .filter(|folder| folder.is_dir()),
+        };
+        self.dialogs.ask(question, begin_at.as_deref());
+    }
+
+    /// Asks, and does what was answered.
+    pub(super) fn follow_dialogs(&mut self, ctx: &egui::Context) {
+        let Some((question, path)) = self.dialogs.show(ctx) else {
+            return;
+        };
+        let done = match question {
+            Question::Project if self.code.unsaved().next().is_some() => {
+                self.code.leaving = Some(Leaving::Project(path.clone()));
+                Ok(())
+            }
+            Question::Project => self.try_to_open_project(&path),
+            Question::Scene => self.try_to_open_file(&path),
+            Question::SaveScene => self.save_scene(&path),
+        };
+        if let Err(why) = done {
+            self.dialogs.refuse(question, &path, why);
+        }
+    }
+
+    /// Goes on with another project. What keeps it from that is asked about again.
+    pub(super) fn open_project(&mut self, folder: &Path) {
+        if let Err(why) = self.try_to_open_project(folder) {
+            self.dialogs.refuse(Question::Project, folder, why);
+        }
+    }
+
+    fn try_to_open_project(&mut self, folder: &Path) -> Result<(), String> {
+        let is_empty = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+        let folder: PathBuf = if is_empty || !folder.exists() {
+            create_project(folder).map_err(|error| error.to_string())?
+        } else {
+            folder.to_owned()
+        };
+        self.workbench.open_project(&folder)?;
+        let root = self.kept.unsaved_folder();
+        self.code.move_to(root, self.workbench.files());
+        self.forget_opened_file();
+        Ok(())
+    }
+
+    /// Lets the gallery go on, unless somebody works.
+    pub(super) fn tend_gallery(&mut self, ctx: &egui::Context) {
+        let works = ctx.input(|input| input.pointer.any_down() || !input.events.is_empty());
+        if works {
+            self.gallery.thumbnails.hold();
+        }
+        let workbench = &self.workbench;
+        let (files, gpu) = (workbench.files(), workbench.gpu_options());
+        self.gallery
+            .tend(&workbench.library, files, gpu, workbench.wake());
+    }
+
+    fn save_scene(&mut self, path: &Path) -> Result<(), String> {
+        let is_scene = path.extension().is_some_and(|end| end == SCENE_EXTENSION);
+        let path = if is_scene {
+            path.to_owned()
+        } else {
+            let mut name = path.as_os_str().to_owned();
+            name.push(".");
+            name.push(SCENE_EXTENSION);
+            name.into()
+        };
+        let scene = self.workbench.scenes.scene_mut();
+        let scene = scene.ok_or("No scene is loaded yet.")?;
+        scene.save(&path).map_err(|problem| problem.message)?;
+        let only = scene.has_update();
+        let text = format!("The scene is saved in {}.", path.display());
+        self.workbench.log.info(text);
+        if only {
+            let text = "The script's `update` is not part of the file: what only it moves will \
+                        stand still.";
+            self.workbench.log.warn(text);
+        }
+        Ok(())
+    }
+}

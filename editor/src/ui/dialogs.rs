@@ -1,0 +1,238 @@
+//! Asking for a file or a folder: by the system's own dialog, or by its path where there is none.
+
+use std::env;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context as TaskContext, Poll, Wake, Waker};
+use std::time::{Duration, Instant};
+
+use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
+use lightbench::script::SCENE_EXTENSION;
+use rfd::{AsyncFileDialog, FileHandle};
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// The folder of a project.
+    Project,
+    /// A scene, a pipeline or a model.
+    Scene,
+    /// Where to write the scene on screen.
+    SaveScene,
+}
+
+impl Question {
+    fn title(self) -> &'static str {
+        match self {
+            Self::Project => "Open a project",
+            Self::Scene => "Open a scene",
+            Self::SaveScene => "Save the scene as",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Project => {
+                "The folder of a project. In a new or an empty folder a project is made."
+            }
+            Self::Scene => {
+                "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb)."
+            }
+            Self::SaveScene => "The file to write. It ends in .scene and holds the entities.",
+        }
+    }
+}
+
+/// An answer that comes sooner than a person could give it: there was no dialog.
+const AT_ONCE: Duration = Duration::from_millis(300);
+
+type Answer = Pin<Box<dyn Future<Output = Option<FileHandle>> + Send>>;
+
+/// A dialog of the system that is open.
+struct Native {
+    question: Question,
+    since: Instant,
+    answer: Answer,
+}
+
+/// A path that is typed.
+struct Typed {
+    question: Question,
+    path: String,
+    why_not: Option<String>,
+    focus: bool,
+}
+
+/// The question that is asked, if one is.
+pub struct Dialogs {
+    /// Whether the system is asked for its dialogs.
+    pub native: bool,
+    open: Option<Native>,
+    typed: Option<Typed>,
+}
+
+impl fmt::Debug for Dialogs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let open = self.open.as_ref().map(|open| open.question);
+        write!(
+            f,
+            "{open:?} {:?}",
+            self.typed.as_ref().map(|typed| typed.question)
+        )
+    }
+}
+
+impl Default for Dialogs {
+    fn default() -> Self {
+        Self {
+            native: has_dialogs(),
+            open: None,
+            typed: None,
+        }
+    }
+}
+
+/// Draws a window when a dialog has an answer.
+struct Repaint(Context);
+
+impl Wake for Repaint {
+    fn wake(self: Arc<Self>) {
+        self.0.request_repaint();
+    }
+}
+
+impl Dialogs {
+    /// Asks. One question is asked at a time.
+    pub fn ask(&mut self, question: Question, begin_at: Option<&Path>) {
+        if self.open.is_some() || self.typed.is_some() {
+            return;
+        }
+        if !self.native {
+            self.ask_for_path(question, begin_at);
+            return;
+        }
+        let mut dialog = AsyncFileDialog::new().set_title(question.title());
+        if let Some(folder) = begin_at {
+            dialog = dialog.set_directory(folder);
+        }
+        let answer: Answer = match question {
+            Question::Project => Box::pin(dialog.pick_folder()),
+            Question::Scene => {
+                let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
+                Box::pin(dialog.add_filter("Scenes and models", &endings).pick_file())
+            }
+            Question::SaveScene => {
+                let dialog = dialog.add_filter("Scenes", &[SCENE_EXTENSION]);
+                Box::pin(dialog.set_file_name("scene.scene").save_file())
+            }
+        };
+        self.open = Some(Native {
+            question,
+            since: Instant::now(),
+            answer,
+        });
+    }
+
+    /// Asks for a path that is typed.
+    fn ask_for_path(&mut self, question: Question, begin_at: Option<&Path>) {
+        let folder = begin_at.map(|folder| folder.join("")).unwrap_or_default();
+        self.typed = Some(Typed {
+            question,
+            path: folder.to_string_lossy().into_owned(),
+            why_not: None,
+            focus: true,
+        });
+    }
+
+    /// Draws what is asked here, and returns the path that was given, if one was.
+    pub fn show(&mut self, ctx: &Context) -> Option<(Question, PathBuf)> {
+        if let Some(open) = &mut self.open {
+            let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
+            let Poll::Ready(answer) = open
+                .answer
+                .as_mut()
+                .poll(&mut TaskContext::from_waker(&waker))
+            else {
+                return None;
+            };
+            let (question, since) = (open.question, open.since);
+            self.open = None;
+            match answer {
+                Some(file) => return Some((question, file.path().to_owned())),
+                None if since.elapsed() < AT_ONCE => {
+                    self.native = false;
+                    self.ask_for_path(question, None);
+                }
+                None => {}
+            }
+        }
+        self.show_typed(ctx)
+    }
+
+    /// Asks again, because nothing can be done with the path.
+    pub fn refuse(&mut self, question: Question, path: &Path, why: String) {
+        self.typed = Some(Typed {
+            question,
+            path: path.to_string_lossy().into_owned(),
+            why_not: Some(why),
+            focus: true,
+        });
+    }
+
+    /// Whether a path is being typed.
+    pub fn is_typing(&self) -> bool {
+        self.typed.is_some()
+    }
+
+    fn show_typed(&mut self, ctx: &Context) -> Option<(Question, PathBuf)> {
+        let typed = self.typed.as_mut()?;
+        let mut done = false;
+        let mut given = false;
+        let modal = Modal::new(Id::unique("path")).show(ctx, |ui| {
+            ui.set_width(460.0);
+            ui.heading(typed.question.title());
+            let label = ui.label(typed.question.about());
+            let field = TextEdit::singleline(&mut typed.path).desired_width(f32::INFINITY);
+            let field = ui.add(field).labelled_by(label.id);
+            if std::mem::take(&mut typed.focus) {
+                field.request_focus();
+            }
+            given = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if let Some(why) = &typed.why_not {
+                ui.label(RichText::new(why).color(ui.visuals().error_fg_color));
+            }
+            ui.horizontal(|ui| {
+                given |= ui.button("OK").clicked();
+                done = ui.button("Cancel").clicked();
+            });
+        });
+        let escaped = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        let path = typed.path.trim();
+        if given && !path.is_empty() {
+            let answer = (typed.question, PathBuf::from(path));
+            self.typed = None;
+            return Some(answer);
+        }
+        if done || escaped || modal.should_close() {
+            self.typed = None;
+        }
+        None
+    }
+}
+
+/// Whether the system may have dialogs. On Linux and its like they come over the session's bus
+/// (XDG Desktop Portal) or from the program zenity.
+fn has_dialogs() -> bool {
+    if cfg!(any(windows, target_os = "macos")) {
+        return true;
+    }
+    let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
+    let bus = set("DBUS_SESSION_BUS_ADDRESS").is_some()
+        || set("XDG_RUNTIME_DIR").is_some_and(|folder| Path::new(&folder).join("bus").exists());
+    let mut folders = set("PATH")
+        .into_iter()
+        .flat_map(|path| env::split_paths(&path).collect::<Vec<_>>());
+    bus || folders.any(|folder| folder.join("zenity").is_file())
+}
