@@ -358,6 +358,21 @@ impl<C: Component> Columns<C> {
         }
     }
 
+    /// Changes the place of an entity's row with that of the row at a position. Nothing happens where
+    /// there is none.
+    pub(crate) fn swap_to(&mut self, entity: Entity, place: usize) {
+        let Some(row) = self.row_of(entity).filter(|_| place < self.len()) else {
+            return;
+        };
+        if row == place {
+            return;
+        }
+        self.map.swap(row, place);
+        let (a, b) = (self.arrays.get(row), self.arrays.get(place));
+        self.set_row(row, b);
+        self.set_row(place, a);
+    }
+
     pub(crate) fn mark(&mut self, entity: Entity) {
         if let Some(row) = self.row_of(entity) {
             self.ticks.mark(row, self.now);

@@ -250,6 +250,11 @@ macro_rules! components {
         }
 
         impl Row {
+            /// Whose row it is.
+            pub fn kind(&self) -> ComponentKind {
+                match self { $(Self::$name(_) => ComponentKind::$name,)* }
+            }
+
             /// Gives an entity the component.
             ///
             /// # Errors

@@ -150,6 +150,8 @@ components! {
         inner_angle: f32 = FRAC_PI_3 * 0.5, "rad", (0.0, 2.0 * PI);
         /// Full angle of the cone outside which a spot light is dark.
         outer_angle: f32 = FRAC_PI_2 * 0.5, "rad", (0.0, 2.0 * PI);
+        /// Whether it shines at all.
+        visible: bool = true, "", ANY;
     }
 
     /// A perspective camera that looks along −z of its transform, with y up.

@@ -158,6 +158,24 @@ impl Entities {
         Some(components)
     }
 
+    /// Gives a removed entity its slot again. False if the slot has had another tenant since.
+    pub fn revive(&mut self, entity: Entity) -> bool {
+        let Some(slot) = self.slots.get_mut(entity.index as usize) else {
+            return false;
+        };
+        // A slot that is retired reads zero and is not on the list.
+        let is_next =
+            entity.generation % 2 == 1 && entity.generation.checked_add(1) == Some(slot.generation);
+        let place = self.free.iter().rposition(|&index| index == entity.index);
+        let Some(place) = place.filter(|_| is_next) else {
+            return false;
+        };
+        self.free.remove(place);
+        slot.generation = entity.generation;
+        slot.components = 0;
+        true
+    }
+
     pub fn contains(&self, entity: Entity) -> bool {
         entity.generation % 2 == 1
             && self
@@ -243,6 +261,21 @@ mod tests {
         assert_eq!(entities.len(), 0);
         assert_eq!(entities.spawn().index(), 1);
         assert!(!entities.contains(last));
+    }
+
+    #[test]
+    fn only_the_last_tenant_of_a_slot_comes_back() {
+        let mut entities = Entities::default();
+        let [first, other] = [entities.spawn(), entities.spawn()];
+        assert!(!entities.revive(first), "it is there");
+        entities.despawn(first);
+        entities.despawn(other);
+        assert!(entities.revive(first));
+        assert!(entities.contains(first) && !entities.revive(first));
+        assert_eq!(entities.spawn().index(), other.index());
+        assert!(!entities.revive(other));
+        assert!(!entities.revive(Entity::NONE));
+        assert_eq!(entities.len(), 2);
     }
 
     #[test]

@@ -44,6 +44,24 @@ impl World {
     /// [`WorldError::Stale`] for either handle; [`WorldError::Cycle`] if the
     /// parent is the entity itself or lies below it. Nothing changes then.
     pub fn set_parent(&mut self, child: Entity, parent: Option<Entity>) -> Result<(), WorldError> {
+        if self.contains(child) && self.parent(child) == parent {
+            return Ok(());
+        }
+        let last = parent.map(|parent| self.family(parent).last_child);
+        self.place_below(child, parent, last)
+    }
+
+    /// Like [`World::set_parent`], but at a place among the parent's children: after one of them, or
+    /// before all where `after` is none of them.
+    ///
+    /// # Errors
+    /// As [`World::set_parent`].
+    pub fn place_below(
+        &mut self,
+        child: Entity,
+        parent: Option<Entity>,
+        after: Option<Entity>,
+    ) -> Result<(), WorldError> {
         if let Some(stale) = [Some(child), parent]
             .into_iter()
             .flatten()
@@ -56,20 +74,25 @@ impl World {
         {
             return Err(WorldError::Cycle { child, parent });
         }
-        if self.parent(child) == parent {
-            return Ok(());
-        }
         self.unlink(child);
         if let Some(parent) = parent {
-            self.link(child, parent);
+            let is_sibling = |after: &Entity| self.parent(*after) == Some(parent);
+            let after = after.filter(is_sibling).unwrap_or(Entity::NONE);
+            self.link(child, parent, after);
         }
         self.columns_mut::<Transform>().mark(child);
         self.columns_mut::<Transform2d>().mark(child);
         Ok(())
     }
 
+    /// The sibling before an entity. `None` for the first, for a root and for a stale handle.
+    pub fn previous_sibling(&self, entity: Entity) -> Option<Entity> {
+        let previous = self.family(entity).previous;
+        (previous != Entity::NONE).then_some(previous)
+    }
+
     /// Whether an entity is another one or one of its descendants.
-    fn is_at_or_below(&self, entity: Entity, ancestor: Entity) -> bool {
+    pub fn is_at_or_below(&self, entity: Entity, ancestor: Entity) -> bool {
         let mut current = Some(entity);
         while let Some(entity) = current {
             if entity == ancestor {
@@ -100,16 +123,24 @@ impl World {
         }
     }
 
-    fn link(&mut self, child: Entity, parent: Entity) {
-        let previous = self.family(parent).last_child;
+    /// Puts an entity below a parent, after one of its children or before all of them.
+    fn link(&mut self, child: Entity, parent: Entity, previous: Entity) {
+        let next = match previous {
+            Entity::NONE => self.family(parent).first_child,
+            previous => self.family(previous).next,
+        };
         self.edit_family(child, |family| {
             family.parent = parent;
             family.previous = previous;
+            family.next = next;
         });
         self.edit_family(previous, |family| family.next = child);
+        self.edit_family(next, |family| family.previous = child);
         self.edit_family(parent, |family| {
-            family.last_child = child;
-            if family.first_child == Entity::NONE {
+            if next == Entity::NONE {
+                family.last_child = child;
+            }
+            if previous == Entity::NONE {
                 family.first_child = child;
             }
         });
@@ -188,6 +219,33 @@ mod tests {
         assert_eq!(children(&world, a), []);
         assert!(!world.has::<Family>(a));
         assert!(!world.has::<Family>(d));
+    }
+
+    #[test]
+    fn a_child_is_placed_among_its_siblings() {
+        let mut world = World::new();
+        let [a, b, c, d, e] = std::array::from_fn(|_| world.spawn());
+        for child in [b, c] {
+            world.set_parent(child, Some(a)).unwrap();
+        }
+        world.place_below(d, Some(a), Some(b)).unwrap();
+        assert_eq!(children(&world, a), [b, d, c]);
+        world.place_below(e, Some(a), None).unwrap();
+        assert_eq!(children(&world, a), [e, b, d, c]);
+        assert_eq!(world.previous_sibling(b), Some(e));
+        assert_eq!(world.previous_sibling(e), None);
+        world.place_below(e, Some(a), Some(c)).unwrap();
+        world.place_below(b, Some(a), Some(b)).unwrap();
+        assert_eq!(children(&world, a), [b, d, c, e]);
+        assert_eq!(world.parent(e), Some(a));
+        let cycle = world.place_below(a, Some(b), None);
+        assert_eq!(
+            cycle,
+            Err(WorldError::Cycle {
+                child: a,
+                parent: b
+            })
+        );
     }
 
     #[test]

@@ -19,6 +19,22 @@ impl EntityMap {
         let &(known, new) = self.pairs.get(old.index() as usize)?;
         (known == old && old != Entity::NONE).then_some(new)
     }
+
+    /// Takes over what another one knows.
+    pub fn extend(&mut self, other: &Self) {
+        for &(old, new) in other.pairs.iter().filter(|(old, _)| *old != Entity::NONE) {
+            self.add(old, new);
+        }
+    }
+
+    /// Takes note of one more.
+    pub(crate) fn add(&mut self, old: Entity, new: Entity) {
+        let slot = old.index() as usize;
+        if slot >= self.pairs.len() {
+            self.pairs.resize(slot + 1, (Entity::NONE, Entity::NONE));
+        }
+        self.pairs[slot] = (old, new);
+    }
 }
 
 /// The state of a world at one moment. Made by [`World::snapshot`].

@@ -165,6 +165,15 @@ impl RowMap {
         Some(row)
     }
 
+    /// Changes the places of two rows.
+    pub fn swap(&mut self, a: usize, b: usize) {
+        self.entities.swap(a, b);
+        for row in [a, b] {
+            self.rows[self.entities[row].index() as usize] = row as u32;
+        }
+        self.layout.version += 1;
+    }
+
     /// Row `i` becomes what row `order[i]` was.
     pub fn reorder(&mut self, order: &[u32]) {
         self.entities = order

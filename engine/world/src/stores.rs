@@ -2,14 +2,14 @@
 //! columns. All of it is resolved when the program is compiled.
 
 use crate::columns::{Columns, Component};
-use crate::components::{ComponentKind, Stores};
+use crate::components::{ComponentKind, Row, Stores};
 use crate::entity::Entity;
 use crate::ticks::Tick;
 
 /// A component that every world has columns for.
 ///
 /// Implemented by the `components!` macro, never by hand.
-pub trait Stored: Component {
+pub trait Stored: Component + Into<Row> {
     /// The component's number.
     const KIND: ComponentKind;
     /// The bit of this component and that of the one that follows it.

@@ -14,7 +14,7 @@ impl Export<'_> {
         for (row, entity) in lights.entities().iter().enumerate() {
             let light = lights.row(row);
             let strength = light.color.as_dvec3() * f64::from(light.intensity);
-            if is_black(strength) {
+            if is_black(strength) || !light.visible {
                 continue;
             }
             let name = world

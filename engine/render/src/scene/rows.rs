@@ -104,7 +104,10 @@ pub fn light_data(light: &Light, position: Vec3, forward: Vec3) -> LightData {
             LightKind::Directional => 2,
             LightKind::Ambient => 3,
         },
-        intensity: light.color * light.intensity,
+        intensity: match light.visible {
+            true => light.color * light.intensity,
+            false => Vec3::ZERO,
+        },
         angle_scale,
         angle_offset: -cos_outer * angle_scale,
         reserved: [0; 3],

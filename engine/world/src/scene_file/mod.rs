@@ -52,7 +52,7 @@ use crate::value::{MaterialId, MeshId};
 use crate::world::World;
 
 pub use read::read;
-pub use write::write;
+pub use write::{number, write};
 
 /// The version that [`write()`] writes and the newest that [`read()`] knows.
 pub const VERSION: u32 = 2;

@@ -85,6 +85,18 @@ fn write_components(
     }
 }
 
+/// Gives a number to every entity that has none, as a file does that is written, and returns the
+/// greatest of all; 0 where there is no entity.
+pub fn number(world: &mut World) -> u32 {
+    let numbers = world.columns::<SceneNumber>();
+    let known = numbers.number().iter().copied().max().unwrap_or(0);
+    if numbers.len() == world.len() {
+        return known;
+    }
+    let numbered = number_entities(world);
+    numbered.keys().next_back().copied().unwrap_or(0)
+}
+
 /// Gives a number to every entity that has none, and returns all by number. Where
 /// two entities have the same, because one is a copy, the later one gets a new
 /// number.

@@ -6,6 +6,7 @@
 //! component is not there waits until it comes.
 
 mod lines;
+mod structure;
 #[cfg(test)]
 mod tests;
 
@@ -19,6 +20,8 @@ use super::fields;
 use super::tables::{self, Field};
 pub use lines::{degrees_of, line, rotation_of};
 pub(crate) use lines::{spell_point, spell_single};
+use structure::Done;
+pub use structure::{Edit, LOCKED, NewKind, Who};
 
 /// One value that a person has set.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,10 +46,14 @@ impl Overlay {
     }
 }
 
-/// What of a scene was changed by hand: by the entity's name and the field, as in `light.range`.
+/// What of a scene was changed by hand: fields by the entity's name and the field, as in `light.range`,
+/// and the structure as a list of edits.
 #[derive(Clone, Debug, Default)]
 pub struct Overlays {
     all: BTreeMap<(String, String), Overlay>,
+    edits: Vec<Done>,
+    /// The number of the last edit.
+    serial: u64,
     /// Until when names were looked at for those that wait.
     looked: Option<Tick>,
 }
@@ -111,10 +118,10 @@ impl Overlays {
     /// Whether nothing was changed.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.all.is_empty()
+        self.all.is_empty() && self.edits.is_empty()
     }
 
-    /// All with the entity's name and the field's path, by these.
+    /// All changed fields with the entity's name and the field's path, by these.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str, &Overlay)> {
         self.all
             .iter()
@@ -196,7 +203,7 @@ impl Overlays {
         }
     }
 
-    /// Gives everything back to the script.
+    /// Gives all fields back to the script. The structure stays.
     pub fn reset_all(&mut self, scene: &mut Scene) {
         for ((_, field), overlay) in std::mem::take(&mut self.all) {
             overlay.take_off(scene, &field);
@@ -207,11 +214,10 @@ impl Overlays {
     /// Lays all on a scene that was loaded anew.
     pub fn lay_on(&mut self, scene: &mut Scene) {
         for overlay in self.all.values_mut() {
-            overlay.script = None;
-            overlay.in_force = None;
+            *overlay = overlay.clone().lifted();
             overlay.contested = false;
-            overlay.entity = Entity::NONE;
         }
+        self.replay(scene, 0);
         self.looked = None;
         self.follow(scene);
     }
@@ -219,15 +225,15 @@ impl Overlays {
     /// Lays them on again after a step, where something wrote a field too or an entity has come or
     /// gone.
     pub fn follow(&mut self, scene: &mut Scene) {
-        if self.all.is_empty() {
+        if self.is_empty() {
             return;
         }
         let names = scene.world.columns::<Name>();
         let named = self
             .looked
             .is_none_or(|looked| names.any_changed_since(looked));
+        let mut written = named && self.retry(scene);
         self.looked = Some(scene.world.observe());
-        let mut written = false;
         for ((name, path), overlay) in &mut self.all {
             if let Ok(field) = tables::field(path) {
                 written |= overlay.follow(scene, name, field, named);
@@ -240,14 +246,26 @@ impl Overlays {
 
     /// Goes on with a scene that was taken back to an earlier moment, at which `before` lay on it.
     pub fn taken_back(&mut self, scene: &mut Scene, before: &Self) {
-        for (_, path, overlay) in before.iter() {
-            overlay.clone().take_off(scene, path);
+        self.structure_taken_back(scene, before.clone());
+        for overlay in self.all.values_mut() {
+            *overlay = overlay.clone().lifted();
+            overlay.contested = false;
         }
-        self.lay_on(scene);
+        self.settle(scene);
     }
 }
 
 impl Overlay {
+    /// One that lies nowhere.
+    fn lifted(self) -> Self {
+        Self {
+            script: None,
+            in_force: None,
+            entity: Entity::NONE,
+            ..self
+        }
+    }
+
     /// Returns whether the scene was written.
     fn follow(&mut self, scene: &mut Scene, name: &str, field: &Field, named: bool) -> bool {
         let is_called = |scene: &Scene, entity| {

@@ -1,0 +1,49 @@
+//! Changes of the structure on a scene that was loaded anew or taken back.
+
+use lightbench_world::scene_file;
+
+use super::super::Overlays;
+use super::work;
+use crate::scene::Scene;
+
+impl Overlays {
+    /// Does all changes again from one on, on a scene without them. Those whose entities are not there
+    /// wait.
+    pub(in super::super) fn replay(&mut self, scene: &mut Scene, from: usize) {
+        if self.edits.len() <= from {
+            return;
+        }
+        // As when the first of them was done.
+        scene_file::number(&mut scene.world);
+        for done in &mut self.edits[from..] {
+            done.inverse = work::perform(scene, &done.edit).ok();
+        }
+    }
+
+    /// Does changes that waited, where their entities have come. Returns whether there were some.
+    pub(in super::super) fn retry(&mut self, scene: &mut Scene) -> bool {
+        let mut done_now = false;
+        for done in self.edits.iter_mut().filter(|done| done.inverse.is_none()) {
+            done.inverse = work::perform(scene, &done.edit).ok();
+            done_now |= done.inverse.is_some();
+        }
+        done_now
+    }
+
+    /// The structure of a scene that was taken back to a moment at which `before` lay on it: changes
+    /// that both have stay, the others of `before` are taken back and the others of these done again.
+    pub(in super::super) fn structure_taken_back(&mut self, scene: &mut Scene, mut before: Self) {
+        let same = self.edits.iter().zip(&before.edits);
+        let common = same.take_while(|(a, b)| a.serial == b.serial).count();
+        while before.edits.len() > common {
+            before.undo_edit(scene);
+        }
+        for ((_, path), overlay) in std::mem::take(&mut before.all) {
+            overlay.take_off(scene, &path);
+        }
+        for (own, old) in self.edits.iter_mut().zip(before.edits) {
+            own.inverse = old.inverse;
+        }
+        self.replay(scene, common);
+    }
+}
