@@ -77,7 +77,9 @@ fn a_script_that_is_typed_and_saved_changes_file_and_picture() {
     bench.until("the text from outside", |editor| {
         editor.code.shown().unwrap().text == shipped
     });
-    bench.until("the first picture", |editor| !editor.workbench.scenes.is_busy());
+    bench.until("the first picture", |editor| {
+        !editor.workbench.scenes.is_busy()
+    });
     assert_eq!(bench.picture(), first);
 }
 
@@ -148,6 +150,31 @@ fn a_mistake_in_a_shader_opens_the_shader() {
     assert_eq!(bench.count(&format!("line {line}, column ")), 1);
 }
 
+/// A scene outside the project is named by its path, and belongs to whoever opened it.
+#[test]
+fn a_script_outside_the_project_is_saved_where_it_is() {
+    let mut bench = Bench::open();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("outside.rhai");
+    let scene = "spawn(\"box\").mesh(box(1)); ambient_light(\"sky\");\n\
+                 camera(\"eye\").at(0, 1, 4).look_at(0, 0, 0);";
+    std::fs::write(&file, scene).unwrap();
+    bench.key(CTRL, Key::O);
+    bench.type_text(file.to_str().unwrap());
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.until("the scene", |editor| {
+        editor.workbench.scenes.shown() == Some("@0/outside.rhai")
+    });
+    let first = bench.picture();
+    bench.key(CTRL, Key::E);
+    assert_eq!(text(&bench), scene);
+    to_the_end(&mut bench);
+    bench.type_text("\nspawn(\"more\").mesh(box(1)).at(1, 1, 0);");
+    save(&mut bench);
+    bench.until_picture_is_not(&first);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), text(&bench));
+}
+
 #[test]
 fn a_change_outside_while_there_is_unsaved_text_is_a_choice() {
     let mut bench = Bench::open();
@@ -181,7 +208,11 @@ fn a_change_outside_while_there_is_unsaved_text_is_a_choice() {
     });
     conflict(&mut bench);
     bench.press("Keep mine");
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), theirs, "not saved yet");
+    assert_eq!(
+        std::fs::read_to_string(&path).unwrap(),
+        theirs,
+        "not saved yet"
+    );
     save(&mut bench);
     let mine = format!("{good}// mine");
     assert_eq!(std::fs::read_to_string(&path).unwrap(), mine);
@@ -235,7 +266,10 @@ fn closing_a_file_or_the_window_with_unsaved_text_asks() {
     bench.press("Close output.wgsl");
     bench.press("Save and close");
     assert!(bench.harness.state().code.shown().is_none());
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), format!("{good}// a"));
+    assert_eq!(
+        std::fs::read_to_string(&path).unwrap(),
+        format!("{good}// a")
+    );
 
     open(&mut bench, SHADER);
     to_the_end(&mut bench);
@@ -244,7 +278,10 @@ fn closing_a_file_or_the_window_with_unsaved_text_asks() {
     bench.harness.run_steps(3);
     bench.press("Don't save");
     assert!(bench.harness.state().wants_to_quit());
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), format!("{good}// a"));
+    assert_eq!(
+        std::fs::read_to_string(&path).unwrap(),
+        format!("{good}// a")
+    );
 }
 
 #[test]
@@ -260,7 +297,10 @@ fn words_are_found_and_lines_gone_to() {
     bench.harness.run_steps(2);
     assert_eq!(bench.count("line 250, column 1"), 1);
     bench.type_text("X");
-    assert!(text(&bench).contains("\nX// line 250\n"), "the text has the keys");
+    assert!(
+        text(&bench).contains("\nX// line 250\n"),
+        "the text has the keys"
+    );
 
     bench.key(CTRL, Key::F);
     bench.type_text("LINE 29");
@@ -273,7 +313,10 @@ fn words_are_found_and_lines_gone_to() {
     bench.press("Previous");
     assert_eq!(bench.count("1 of 11"), 1);
     assert_eq!(bench.count("line 29, column 11"), 1);
-    bench.harness.get_by_role_and_label(Role::CheckBox, "Case").click();
+    bench
+        .harness
+        .get_by_role_and_label(Role::CheckBox, "Case")
+        .click();
     bench.harness.run_steps(3);
     assert_eq!(bench.count("not found"), 1);
 }
@@ -338,6 +381,9 @@ fn typing_in_two_thousand_lines_is_quick() {
     assert!(text(&bench).contains("abcdefghijklmnopqrstuvwx"));
     took.sort();
     let median = took[took.len() / 2];
-    eprintln!("a letter takes {median:?} with all panels; the longest {:?}", took.last());
+    eprintln!(
+        "a letter takes {median:?} with all panels; the longest {:?}",
+        took.last()
+    );
     assert!(median < Duration::from_millis(16), "{took:?}");
 }

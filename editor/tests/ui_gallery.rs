@@ -33,10 +33,10 @@ fn open_gallery(bench: &mut Bench) {
 
 /// Clicks what lies in the window of the gallery.
 fn press_in_gallery(bench: &mut Bench, label: &str) {
-    let role = |node: &egui_kittest::Node| node.role();
-    let all = bench.harness.query_all_by_label(label);
-    let node = all.filter(|node| role(node) == Role::Button).last().unwrap();
-    node.click();
+    let all = bench
+        .harness
+        .query_all_by_role_and_label(Role::Button, label);
+    all.last().unwrap().click();
     bench.harness.run_steps(3);
 }
 
@@ -53,9 +53,15 @@ fn the_gallery_shows_pictures_and_opens_scenes_pipelines_and_copies() {
         .unwrap()
         .map(|file| file.unwrap().file_name().to_string_lossy().into_owned())
         .collect();
-    assert_eq!(kept.len(), 2, "a picture and what it was made from: {kept:?}");
+    assert_eq!(
+        kept.len(),
+        2,
+        "a picture and what it was made from: {kept:?}"
+    );
     let picture = kept.iter().find(|name| name.ends_with(".png")).unwrap();
-    let picture = image::open(pictures.path().join(picture)).unwrap().to_rgb8();
+    let picture = image::open(pictures.path().join(picture))
+        .unwrap()
+        .to_rgb8();
     assert_eq!(picture.dimensions(), (320, 180));
     let colors: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
     assert!(colors.len() > 100, "{} colours", colors.len());

@@ -8,7 +8,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers};
+use egui::Key;
 use egui_kittest::kittest::Queryable as _;
 use lightbench_editor::ui::code::document::Outside;
 use lightbench_editor::ui::code::drafts::PAUSE;
@@ -30,7 +30,9 @@ fn typed(bench: &mut Bench, text: &str) {
 
 /// The drafts that lie below a folder.
 fn drafts(folder: &Path) -> Vec<PathBuf> {
-    let runs = std::fs::read_dir(folder.join("unsaved")).into_iter().flatten();
+    let runs = std::fs::read_dir(folder.join("unsaved"))
+        .into_iter()
+        .flatten();
     let files = runs.flatten().flat_map(|run| std::fs::read_dir(run.path()));
     let files = files.flatten().flatten().map(|file| file.path());
     files
@@ -68,7 +70,11 @@ fn unsaved_text_is_offered_after_the_editor_ended_without_saving() {
     bench.press("Open the text");
     let document = bench.harness.state().code.shown().unwrap();
     let theirs = Outside::Changed("// theirs".to_owned());
-    assert_eq!(document.outside, Some(theirs), "the file is another one now");
+    assert_eq!(
+        document.outside,
+        Some(theirs),
+        "the file is another one now"
+    );
     bench.press("Take theirs");
     bench.until("the draft to go", |_| drafts(kept.path()).is_empty());
     let project = bench.close();
@@ -123,5 +129,9 @@ fn unsaved_text_of_an_editor_that_was_killed_is_offered() {
     let mut bench = Bench::open_project(project, Some(folder.path().join("editor.json")));
     bench.press("Open the text");
     assert!(text(&bench).ends_with("// killed"));
-    assert!(!std::fs::read_to_string(&on_disk).unwrap().contains("killed"));
+    assert!(
+        !std::fs::read_to_string(&on_disk)
+            .unwrap()
+            .contains("killed")
+    );
 }

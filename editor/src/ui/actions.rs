@@ -136,7 +136,11 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
                 entry(Action::OpenScene, "Open a scene", command(Key::O)),
             ],
             &[
-                entry(Action::EditScene, "Edit the scene's script", command(Key::E)),
+                entry(
+                    Action::EditScene,
+                    "Edit the scene's script",
+                    command(Key::E),
+                ),
                 entry(Action::EditPipeline, "Edit the pipeline's file", None),
                 entry(Action::SaveFile, "Save the file", command(Key::S)),
             ],

@@ -72,7 +72,9 @@ impl Editor {
     /// Saves an open file. Returns whether it is saved.
     pub(super) fn save_file(&mut self, path: &str) -> bool {
         let open = self.code.documents().iter();
-        let Some(index) = open.enumerate().find_map(|(i, open)| (open.path == path).then_some(i))
+        let Some(index) = open
+            .enumerate()
+            .find_map(|(i, open)| (open.path == path).then_some(i))
         else {
             return true;
         };
@@ -91,7 +93,11 @@ impl Editor {
     fn was_saved(&mut self, saved: Result<(), SaveError>, paths: &[String]) -> bool {
         // What is watched tells of itself.
         let unwatched = |path: &String| path.starts_with('@') || !self.workbench.is_watching();
-        let unwatched: Vec<String> = paths.iter().filter(|path| unwatched(path)).cloned().collect();
+        let unwatched: Vec<String> = paths
+            .iter()
+            .filter(|path| unwatched(path))
+            .cloned()
+            .collect();
         if !unwatched.is_empty() {
             self.workbench.files_changed(&unwatched);
         }
@@ -179,9 +185,9 @@ impl Editor {
         let project = self.workbench.files().project();
         let begin_at = match question {
             Question::Project => project.and_then(Path::parent).map(Path::to_owned),
-            Question::Scene | Question::SaveScene => {
-                project.map(|project| project.join(SCENES)).filter(|folder| folder.is_dir())
-            }
+            Question::Scene | Question::SaveScene => project
+                .map(|project| project.join(SCENES))
+                .filter(|folder| folder.is_dir()),
         };
         self.dialogs.ask(question, begin_at.as_deref());
     }

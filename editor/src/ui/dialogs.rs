@@ -1,7 +1,6 @@
 //! Asking for a file or a folder: by the system's own dialog, or by its path where there is none.
 
 use std::env;
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -37,7 +36,9 @@ impl Question {
             Self::Project => {
                 "The folder of a project. In a new or an empty folder a project is made."
             }
-            Self::Scene => "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb).",
+            Self::Scene => {
+                "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb)."
+            }
             Self::SaveScene => "The file to write. It ends in .scene and holds the entities.",
         }
     }
@@ -69,13 +70,6 @@ pub struct Dialogs {
     pub native: bool,
     open: Option<Native>,
     typed: Option<Typed>,
-}
-
-impl fmt::Debug for Dialogs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let open = self.open.as_ref().map(|open| open.question);
-        write!(f, "{open:?} {:?}", self.typed.as_ref().map(|typed| typed.question))
-    }
 }
 
 impl Default for Dialogs {
@@ -144,7 +138,10 @@ impl Dialogs {
     pub fn show(&mut self, ctx: &Context) -> Option<(Question, PathBuf)> {
         if let Some(open) = &mut self.open {
             let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
-            let Poll::Ready(answer) = open.answer.as_mut().poll(&mut TaskContext::from_waker(&waker))
+            let Poll::Ready(answer) = open
+                .answer
+                .as_mut()
+                .poll(&mut TaskContext::from_waker(&waker))
             else {
                 return None;
             };
@@ -222,8 +219,8 @@ fn has_dialogs() -> bool {
     let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
     let bus = set("DBUS_SESSION_BUS_ADDRESS").is_some()
         || set("XDG_RUNTIME_DIR").is_some_and(|folder| Path::new(&folder).join("bus").exists());
-    let mut folders = set("PATH").into_iter().flat_map(|path| {
-        env::split_paths(&path).collect::<Vec<_>>()
-    });
+    let mut folders = set("PATH")
+        .into_iter()
+        .flat_map(|path| env::split_paths(&path).collect::<Vec<_>>());
     bus || folders.any(|folder| folder.join("zenity").is_file())
 }

@@ -224,7 +224,10 @@ impl Editor {
             Action::OpenScene => self.ask_for(Question::Scene),
             Action::SaveSceneAs => self.ask_for(Question::SaveScene),
             Action::Gallery => {
-                let (files, wake) = (self.workbench.files().clone(), self.workbench.wake().clone());
+                let (files, wake) = (
+                    self.workbench.files().clone(),
+                    self.workbench.wake().clone(),
+                );
                 self.gallery.open(&files, &wake);
             }
             Action::Welcome => self.welcome = true,

@@ -140,7 +140,9 @@ mod tests {
         let mut state = 7_u64;
         let mut next = |below: u64| {
             // The multiplier is that of Knuth's MMIX.
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
             (state >> 33) % below
         };
         for round in 0..300 {
@@ -155,7 +157,11 @@ mod tests {
                 (first.lines().collect(), second.lines().collect());
             assert_eq!(a, first);
             assert_eq!(b, second);
-            assert_eq!(changed, least_changes(&first, &second), "{first:?} {second:?}");
+            assert_eq!(
+                changed,
+                least_changes(&first, &second),
+                "{first:?} {second:?}"
+            );
         }
     }
 
@@ -174,9 +180,12 @@ mod tests {
     #[test]
     fn texts_without_a_common_line_are_told_one_after_the_other() {
         let text = |from: usize| -> String {
-            (from..from + 2000).map(|line| format!("{line}\n")).collect()
+            (from..from + 2000)
+                .map(|line| format!("{line}\n"))
+                .collect()
         };
-        let lines = compare(&text(0), &text(5000));
+        let (first, second) = (text(0), text(5000));
+        let lines = compare(&first, &second);
         let (_, _, changed) = texts_of(&lines);
         assert_eq!(changed, 4000);
     }

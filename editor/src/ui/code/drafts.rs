@@ -146,7 +146,10 @@ impl Drafts {
             if now.saturating_duration_since(since) >= PAUSE {
                 known.kept = Some(document.edits());
                 known.since = None;
-                orders.push(Order::Write(name_of(&document.path).into(), written(document)));
+                orders.push(Order::Write(
+                    name_of(&document.path).into(),
+                    written(document),
+                ));
             }
         }
         for order in orders {
@@ -161,7 +164,10 @@ impl Drafts {
         let known = self.known.entry(document.path.clone()).or_default();
         known.kept = Some(document.edits());
         known.since = None;
-        self.send(Order::Write(name_of(&document.path).into(), written(document)));
+        self.send(Order::Write(
+            name_of(&document.path).into(),
+            written(document),
+        ));
     }
 
     /// How long until something is to be kept.
@@ -353,7 +359,11 @@ mod tests {
         second.forget(&left[0]);
         drop(second);
         assert_eq!(desk.open().1, []);
-        assert_eq!(fs::read_dir(&desk.root).unwrap().count(), 0, "nothing is left");
+        assert_eq!(
+            fs::read_dir(&desk.root).unwrap().count(),
+            0,
+            "nothing is left"
+        );
     }
 
     #[test]

@@ -58,21 +58,82 @@ impl Language {
 
 // The Rhai Book, "Keywords".
 const RHAI_KEYWORDS: [&str; 29] = [
-    "as", "break", "catch", "const", "continue", "do", "else", "export", "fn", "for", "global",
-    "if", "import", "in", "is_shared", "let", "loop", "new", "private", "return", "static",
-    "switch", "this", "throw", "try", "until", "var", "while", "with",
+    "as",
+    "break",
+    "catch",
+    "const",
+    "continue",
+    "do",
+    "else",
+    "export",
+    "fn",
+    "for",
+    "global",
+    "if",
+    "import",
+    "in",
+    "is_shared",
+    "let",
+    "loop",
+    "new",
+    "private",
+    "return",
+    "static",
+    "switch",
+    "this",
+    "throw",
+    "try",
+    "until",
+    "var",
+    "while",
+    "with",
 ];
 
 // WGSL (W3C), sections "Keyword Summary" and "Predeclared Types".
 const WGSL_KEYWORDS: [&str; 27] = [
-    "alias", "break", "case", "const", "const_assert", "continue", "continuing", "default",
-    "diagnostic", "discard", "else", "enable", "fn", "for", "if", "let", "loop", "override",
-    "requires", "return", "struct", "switch", "var", "while", "function", "private", "workgroup",
+    "alias",
+    "break",
+    "case",
+    "const",
+    "const_assert",
+    "continue",
+    "continuing",
+    "default",
+    "diagnostic",
+    "discard",
+    "else",
+    "enable",
+    "fn",
+    "for",
+    "if",
+    "let",
+    "loop",
+    "override",
+    "requires",
+    "return",
+    "struct",
+    "switch",
+    "var",
+    "while",
+    "function",
+    "private",
+    "workgroup",
 ];
 
 const WGSL_TYPES: [&str; 13] = [
-    "array", "atomic", "bool", "f16", "f32", "i32", "ptr", "sampler", "sampler_comparison", "u32",
-    "storage", "uniform", "binding_array",
+    "array",
+    "atomic",
+    "bool",
+    "f16",
+    "f32",
+    "i32",
+    "ptr",
+    "sampler",
+    "sampler_comparison",
+    "u32",
+    "storage",
+    "uniform",
+    "binding_array",
 ];
 
 /// Calls `tell` for each part of the text, in order and without gaps.
@@ -307,11 +368,16 @@ impl Reader<'_> {
 fn is_wgsl_type(word: &str) -> bool {
     let begins = |what: &str| word.starts_with(what);
     let mut letters = word.bytes();
-    let own = letters.next().is_some_and(|first| first.is_ascii_uppercase())
+    let own = letters
+        .next()
+        .is_some_and(|first| first.is_ascii_uppercase())
         && letters.any(|letter| letter.is_ascii_lowercase());
     let sized = |what: &str| {
         let rest = word.strip_prefix(what).map(str::as_bytes);
-        rest.is_some_and(|rest| rest.first().is_some_and(|size| (b'2'..=b'4').contains(size)))
+        rest.is_some_and(|rest| {
+            rest.first()
+                .is_some_and(|size| (b'2'..=b'4').contains(size))
+        })
     };
     own || WGSL_TYPES.contains(&word) || sized("vec") || sized("mat") || begins("texture_")
 }
@@ -337,7 +403,8 @@ mod tests {
 
     #[test]
     fn scripts_are_told_apart() {
-        let text = "let a = 0..10; // to 10\nfor i in 0x1f { spawn(`n ${a + `x}`} \"`).at(1.5e-3, .5) }";
+        let text =
+            "let a = 0..10; // to 10\nfor i in 0x1f { spawn(`n ${a + `x}`} \"`).at(1.5e-3, .5) }";
         let rhai = |kind| of(Language::Rhai, text, kind);
         assert_eq!(rhai(Kind::Keyword), ["let", "for", "in"]);
         assert_eq!(rhai(Kind::Number), ["0", "10", "0x1f", "1.5e-3", "5"]);
@@ -359,7 +426,15 @@ mod tests {
         assert_eq!(wgsl(Kind::Directive), ["#import", "@group"]);
         assert_eq!(wgsl(Kind::Comment), ["/* a /* b */ c */"]);
         assert_eq!(wgsl(Kind::Keyword), ["var", "fn", "return"]);
-        let types = ["storage", "texture_2d", "f32", "vec3f", "Surface", "u32", "u32"];
+        let types = [
+            "storage",
+            "texture_2d",
+            "f32",
+            "vec3f",
+            "Surface",
+            "u32",
+            "u32",
+        ];
         assert_eq!(wgsl(Kind::Type), types);
         assert_eq!(wgsl(Kind::Call), ["f"]);
         assert_eq!(wgsl(Kind::Number), ["1", "0xFFu", "1.0e+2f"]);
@@ -387,9 +462,14 @@ mod tests {
                 }
             }
         }
-        for odd in ["\"\\", "\"\\é", "`${", "#\"", "##", "/*", "'", "`", "é(", "1."] {
+        for odd in [
+            "\"\\", "\"\\é", "`${", "#\"", "##", "/*", "'", "`", "é(", "1.",
+        ] {
             for language in [Language::Rhai, Language::Wgsl, Language::Other] {
-                let whole: String = parts(language, odd).into_iter().map(|part| part.1).collect();
+                let whole: String = parts(language, odd)
+                    .into_iter()
+                    .map(|part| part.1)
+                    .collect();
                 assert_eq!(whole, odd);
             }
         }

@@ -33,7 +33,11 @@ fn lines_of(text: &str, chosen: &Range<usize>) -> Range<usize> {
     let (from, to) = (byte_of(text, chosen.start), byte_of(text, chosen.end));
     let start = text[..from].rfind('\n').map_or(0, |at| at + 1);
     // What ends before the first letter of a line does not touch it.
-    let last = if to > from && text[..to].ends_with('\n') { to - 1 } else { to };
+    let last = if to > from && text[..to].ends_with('\n') {
+        to - 1
+    } else {
+        to
+    };
     let end = text[last..].find('\n').map_or(text.len(), |at| last + at);
     start..end
 }
@@ -85,7 +89,9 @@ pub fn outdent(text: &str, chosen: &Range<usize>) -> Edit {
 pub fn toggle_comment(text: &str, chosen: &Range<usize>, sign: &str) -> Edit {
     let lines = &text[lines_of(text, chosen)];
     let mut written = lines.lines().filter(|line| !line.trim().is_empty());
-    let all = written.clone().all(|line| line.trim_start().starts_with(sign));
+    let all = written
+        .clone()
+        .all(|line| line.trim_start().starts_with(sign));
     let inset = |line: &str| line.len() - line.trim_start().len();
     let least = written.clone().map(inset).min().unwrap_or(0);
     let remove = all && written.next().is_some();
@@ -111,7 +117,9 @@ fn each_line(text: &str, chosen: &Range<usize>, change: impl Fn(&str) -> String)
     let chosen = if chosen.is_empty() {
         // The caret stays at its letter.
         let end = first + after;
-        let caret = (chosen.start + after).saturating_sub(before).clamp(first, end);
+        let caret = (chosen.start + after)
+            .saturating_sub(before)
+            .clamp(first, end);
         caret..caret
     } else {
         first..first + after

@@ -46,7 +46,9 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .show(ctx, |ui| {
             ui.set_width(470.0);
-            ui.label("A workbench on which to learn, teach and compare real-time lighting pipelines.");
+            ui.label(
+                "A workbench on which to learn, teach and compare real-time lighting pipelines.",
+            );
             ui.add_space(6.0);
             for (number, (text, button)) in LINES.iter().enumerate() {
                 ui.horizontal_top(|ui| {

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use lightbench::assets::files::Files;
 
-use super::{Wake, Workbench};
 use super::watching::{Touched, Watch};
+use super::{Wake, Workbench};
 
 impl Workbench {
     /// Goes on with the files of another project. Scene and pipeline are those of the same names

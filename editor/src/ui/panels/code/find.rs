@@ -86,7 +86,12 @@ impl Find {
     }
 
     /// Draws the bars that are open. `chosen` are the letters chosen in the text.
-    pub fn show(&mut self, ui: &mut Ui, document: &Document, chosen: &Range<usize>) -> Option<Wish> {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        document: &Document,
+        chosen: &Range<usize>,
+    ) -> Option<Wish> {
         self.has_keys = false;
         let mut wish = None;
         if self.line.is_some() {

@@ -19,7 +19,11 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     };
     let names: Vec<String> = match &leaving {
         Leaving::File(path) => vec![path.clone()],
-        _ => editor.code.unsaved().map(|open| open.path.clone()).collect(),
+        _ => editor
+            .code
+            .unsaved()
+            .map(|open| open.path.clone())
+            .collect(),
     };
     let failures: Vec<String> = editor
         .code

@@ -133,12 +133,7 @@ impl Lines {
     }
 }
 
-fn lay_out_line(
-    ui: &Ui,
-    line: &str,
-    parts: &[(usize, usize, Kind)],
-    dark: bool,
-) -> Arc<Galley> {
+fn lay_out_line(ui: &Ui, line: &str, parts: &[(usize, usize, Kind)], dark: bool) -> Arc<Galley> {
     let section = |start: usize, end: usize, kind: Kind| LayoutSection {
         leading_space: 0.0,
         byte_range: start.into()..end.into(),

@@ -180,7 +180,10 @@ fn mark(document: &Document, problem: &Problem) -> Option<Mark> {
 /// The text, and the mistakes below it.
 fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let Editor {
-        code, code_panel, ..
+        code,
+        code_panel,
+        workbench,
+        ..
     } = editor;
     let going = code.going.take();
     let Some(document) = code.shown_mut() else {
@@ -205,7 +208,7 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let jump = mistakes(ui, marks);
     let (line, column) = text::line_and_column(&document.text, code_panel.field.chosen.end);
     ui.horizontal(|ui| {
-        ui.weak(&document.path);
+        ui.weak(workbench.files().display(&document.path));
         ui.weak(format!("line {line}, column {column}"));
     });
     if let Some(spot) = jump {
@@ -226,7 +229,11 @@ fn mistakes(ui: &mut Ui, marks: &[Mark]) -> Option<Spot> {
             ui.push_id(index, |ui| {
                 let text = format!("line {}: {}", mark.line, mark.message);
                 let text = RichText::new(text).color(palette.error);
-                let link = ui.add(egui::Label::new(text).truncate().sense(egui::Sense::click()));
+                let link = ui.add(
+                    egui::Label::new(text)
+                        .truncate()
+                        .sense(egui::Sense::click()),
+                );
                 let link = match &mark.hint {
                     Some(hint) => link.on_hover_text(hint),
                     None => link,

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::{TextEditOutput, TextEditState};
 use egui::{
-    Align, Align2, Color32, Event, Frame, Galley, Id, Key, Modifiers, Rect, RichText, ScrollArea,
-    Shape, Stroke, TextBuffer, TextEdit, Ui, pos2, vec2,
+    Align, Align2, Color32, Event, Frame, Galley, Id, Key, Modifiers, Rangef, Rect, RichText,
+    ScrollArea, Shape, Stroke, TextBuffer, TextEdit, Ui, pos2, vec2,
 };
 
 use super::lines::{Lines, font};
@@ -49,6 +49,8 @@ pub struct TextField {
     lines: Lines,
     /// The file that was shown last.
     path: String,
+    /// How high the field was: the caret stays in sight where that changes.
+    height: f32,
     /// The letters that are chosen, for who acts on them.
     pub chosen: Range<usize>,
     /// Whether the field had the keys.
@@ -106,18 +108,28 @@ impl TextField {
                 let shapes = backgrounds(ui, &output, shown, &self.chosen);
                 ui.painter().set(behind, shapes);
                 marks(ui, &output, document, shown.marks);
-                if let Some(range) = output.cursor_range.filter(|_| wrote) {
+                let follows = wrote || self.height != area.height();
+                if let Some(range) = output.cursor_range.filter(|_| follows) {
                     let caret = output.galley.pos_from_cursor(range.primary);
                     ui.scroll_to_rect(caret.translate(output.galley_pos.to_vec2()), None);
                 }
                 if let Some(range) = &shown.go {
                     let caret = CCursor::new(letters_before(&document.text, range.start));
                     let place = output.galley.pos_from_cursor(caret);
+                    // The beginning of the line stays in sight where its place is near.
+                    let width = ui.clip_rect().width();
+                    let x_range = if place.right() + 40.0 < width {
+                        Rangef::new(0.0, width)
+                    } else {
+                        place.x_range().expand(40.0)
+                    };
+                    let place = Rect::from_x_y_ranges(x_range, place.y_range());
                     let place = place.translate(output.galley_pos.to_vec2());
-                    ui.scroll_to_rect(place.expand2(vec2(40.0, 0.0)), Some(Align::Center));
+                    ui.scroll_to_rect(place, Some(Align::Center));
                 }
                 (output.galley, output.galley_pos)
             });
+        self.height = area.height();
         let (galley, at) = scroll.inner;
         numbers(ui, gutter, &galley, at.y, shown.marks);
         ui.advance_cursor_after_rect(area);
@@ -163,7 +175,6 @@ impl TextField {
         }
         output
     }
-
 }
 
 /// Enter and Tab write more than one letter. Each takes its turn among the letters that were typed
@@ -250,7 +261,9 @@ fn range_of_letters(letters: &Range<usize>) -> CCursorRange {
 /// Chooses letters of a field.
 fn choose(ui: &Ui, id: Id, letters: Range<usize>) {
     let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
-    state.cursor.set_char_range(Some(range_of_letters(&letters)));
+    state
+        .cursor
+        .set_char_range(Some(range_of_letters(&letters)));
     state.store(ui.ctx(), id);
 }
 
@@ -263,12 +276,7 @@ fn rows_in_sight(galley: &Galley, top: f32, clip: Rect) -> Range<usize> {
 }
 
 /// Behind the text: the line of the caret, lines with mistakes, and what was found.
-fn backgrounds(
-    ui: &Ui,
-    output: &TextEditOutput,
-    shown: &Shown,
-    chosen: &Range<usize>,
-) -> Shape {
+fn backgrounds(ui: &Ui, output: &TextEditOutput, shown: &Shown, chosen: &Range<usize>) -> Shape {
     let palette = Palette::of(ui);
     let clip = ui.clip_rect();
     let (galley, at) = (&output.galley, output.galley_pos);
@@ -276,10 +284,8 @@ fn backgrounds(
     let band = |row: usize| {
         let row = galley.rows.get(row)?;
         let top = at.y + row.pos.y;
-        let whole = Rect::from_min_max(
-            pos2(clip.left(), top),
-            pos2(clip.right(), top + row.size.y),
-        );
+        let whole =
+            Rect::from_min_max(pos2(clip.left(), top), pos2(clip.right(), top + row.size.y));
         clip.intersects(whole).then_some(whole)
     };
     if let Some(range) = output.cursor_range.filter(|_| output.response.has_focus()) {
@@ -296,7 +302,10 @@ fn backgrounds(
     let text = galley.job.text.as_str();
     let (from, to) = bytes_of_rows(text, &sight);
     let first = shown.found.partition_point(|found| found.end < from);
-    for found in shown.found[first..].iter().take_while(|found| found.start < to) {
+    for found in shown.found[first..]
+        .iter()
+        .take_while(|found| found.start < to)
+    {
         let letters = letters_before(text, found.start)..letters_before(text, found.end);
         let is_chosen = letters == *chosen;
         let strength = if is_chosen { 0.6 } else { 0.25 };
@@ -384,7 +393,14 @@ fn wave(left: f32, right: f32, y: f32, color: Color32) -> Shape {
     let count = ((right - left) / 2.5).ceil().max(1.0) as usize;
     let point = |i: usize| {
         let x = (left + 2.5 * i as f32).min(right);
-        pos2(x, if i.is_multiple_of(2) { y + 1.2 } else { y - 1.2 })
+        pos2(
+            x,
+            if i.is_multiple_of(2) {
+                y + 1.2
+            } else {
+                y - 1.2
+            },
+        )
     };
     Shape::line((0..=count).map(point).collect(), Stroke::new(1.2, color))
 }
@@ -428,7 +444,11 @@ mod tests {
     #[test]
     fn a_mistake_is_about_the_word_at_its_column() {
         assert_eq!(wrong_letters("  let ä1 = x;", 7), 6..8);
-        assert_eq!(wrong_letters("  let a = x;", 9), 8..9, "a sign is one letter");
+        assert_eq!(
+            wrong_letters("  let a = x;", 9),
+            8..9,
+            "a sign is one letter"
+        );
         assert_eq!(wrong_letters("  let a;  ", 0), 2..10);
         assert_eq!(wrong_letters("ab", 99), 0..2);
         assert_eq!(wrong_letters("", 1), 0..0);
