@@ -150,6 +150,31 @@ fn a_mistake_in_a_shader_opens_the_shader() {
     assert_eq!(bench.count(&format!("line {line}, column ")), 1);
 }
 
+/// A scene outside the project is named by its path, and belongs to whoever opened it.
+#[test]
+fn a_script_outside_the_project_is_saved_where_it_is() {
+    let mut bench = Bench::open();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("outside.rhai");
+    let scene = "spawn(\"box\").mesh(box(1)); ambient_light(\"sky\");\n\
+                 camera(\"eye\").at(0, 1, 4).look_at(0, 0, 0);";
+    std::fs::write(&file, scene).unwrap();
+    bench.key(CTRL, Key::O);
+    bench.type_text(file.to_str().unwrap());
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.until("the scene", |editor| {
+        editor.workbench.scenes.shown() == Some("@0/outside.rhai")
+    });
+    let first = bench.picture();
+    bench.key(CTRL, Key::E);
+    assert_eq!(text(&bench), scene);
+    to_the_end(&mut bench);
+    bench.type_text("\nspawn(\"more\").mesh(box(1)).at(1, 1, 0);");
+    save(&mut bench);
+    bench.until_picture_is_not(&first);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), text(&bench));
+}
+
 #[test]
 fn a_change_outside_while_there_is_unsaved_text_is_a_choice() {
     let mut bench = Bench::open();

@@ -1,7 +1,6 @@
 //! Asking for a file or a folder: by the system's own dialog, or by its path where there is none.
 
 use std::env;
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -71,17 +70,6 @@ pub struct Dialogs {
     pub native: bool,
     open: Option<Native>,
     typed: Option<Typed>,
-}
-
-impl fmt::Debug for Dialogs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let open = self.open.as_ref().map(|open| open.question);
-        write!(
-            f,
-            "{open:?} {:?}",
-            self.typed.as_ref().map(|typed| typed.question)
-        )
-    }
 }
 
 impl Default for Dialogs {

@@ -180,7 +180,10 @@ fn mark(document: &Document, problem: &Problem) -> Option<Mark> {
 /// The text, and the mistakes below it.
 fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let Editor {
-        code, code_panel, ..
+        code,
+        code_panel,
+        workbench,
+        ..
     } = editor;
     let going = code.going.take();
     let Some(document) = code.shown_mut() else {
@@ -205,7 +208,7 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let jump = mistakes(ui, marks);
     let (line, column) = text::line_and_column(&document.text, code_panel.field.chosen.end);
     ui.horizontal(|ui| {
-        ui.weak(&document.path);
+        ui.weak(workbench.files().display(&document.path));
         ui.weak(format!("line {line}, column {column}"));
     });
     if let Some(spot) = jump {
