@@ -11,10 +11,27 @@ use crate::ui::workbench::lighting::Lit;
 /// Lamps that are listed; the rest is summed up.
 const MOST_LAMPS: usize = 40;
 
-/// Draws both parts.
+/// The switches of both parts.
+pub fn choose(editor: &mut Editor, ui: &mut Ui) {
+    ui.horizontal_wrapped(|ui| {
+        let workbench = &mut editor.workbench;
+        let about = "What each light adds to the pixel, computed on the processor from the scene as it \
+                     stands, by the same formulas as the shaders have. Without shadows.";
+        let on = ui.checkbox(&mut workbench.lighting.on, "Light by light");
+        if on.on_hover_text(about).changed() && workbench.lighting.on {
+            workbench.light_pixel();
+        }
+        if workbench.lighting.is_waiting() {
+            ui.spinner();
+        }
+        choose_beside(editor, ui);
+    });
+}
+
+/// Draws both parts, where they are switched on.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    lamps(editor, ui);
     beside(editor, ui);
+    lamps(editor, ui);
 }
 
 /// A table of four columns that may be wider than the panel.
@@ -30,17 +47,6 @@ fn numbers(values: [f64; 3]) -> String {
 
 fn lamps(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
-    ui.horizontal(|ui| {
-        let about = "What each light adds to the pixel, computed on the processor from the scene as it \
-                     stands, by the same formulas as the shaders have. Without shadows.";
-        let on = ui.checkbox(&mut workbench.lighting.on, "Light by light");
-        if on.on_hover_text(about).changed() && workbench.lighting.on {
-            workbench.light_pixel();
-        }
-        if workbench.lighting.is_waiting() {
-            ui.spinner();
-        }
-    });
     if !workbench.lighting.on {
         return;
     }
@@ -133,36 +139,39 @@ fn table(ui: &mut Ui, lit: &Lit) -> Option<Entity> {
     clicked
 }
 
-fn beside(editor: &mut Editor, ui: &mut Ui) {
+fn choose_beside(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let chosen = workbench.beside.pipeline.clone();
     let title = |name: &str| workbench.library.pipeline_title(name).to_owned();
     let shown = chosen.as_deref().map_or_else(|| "none".to_owned(), title);
     let here = workbench.pipelines.shown().unwrap_or_default().to_owned();
     let mut wanted = None;
-    ui.horizontal(|ui| {
-        let response = combo(ui, "Compare with", &shown, 170.0, |ui| {
-            if ui.selectable_label(chosen.is_none(), "none").clicked() {
-                wanted = Some(None);
+    let response = combo(ui, "Compare with", &shown, 170.0, |ui| {
+        if ui.selectable_label(chosen.is_none(), "none").clicked() {
+            wanted = Some(None);
+        }
+        for entry in &workbench.library.pipelines {
+            let is_chosen = chosen.as_ref() == Some(&entry.name);
+            if entry.name != here && ui.selectable_label(is_chosen, &entry.title).clicked() {
+                wanted = Some(Some(entry.name.clone()));
             }
-            for entry in &workbench.library.pipelines {
-                let is_chosen = chosen.as_ref() == Some(&entry.name);
-                if entry.name != here && ui.selectable_label(is_chosen, &entry.title).clicked() {
-                    wanted = Some(Some(entry.name.clone()));
-                }
-            }
-        });
-        response.on_hover_text(
-            "Draws the same moment once with another pipeline, and reads the pixel there. The \
-             picture on screen stays.",
-        );
-        if workbench.beside.is_waiting() {
-            ui.spinner();
         }
     });
+    response.on_hover_text(
+        "Draws the same moment once with another pipeline, and reads the pixel there. The \
+             picture on screen stays.",
+    );
+    if workbench.beside.is_waiting() {
+        ui.spinner();
+    }
     if let Some(wanted) = wanted {
         workbench.put_beside(wanted.as_deref());
     }
+}
+
+/// What both pipelines leave in the pixel.
+fn beside(editor: &Editor, ui: &mut Ui) {
+    let workbench = &editor.workbench;
     if let Some(problem) = &workbench.beside.problem {
         ui.label(problem);
     }
