@@ -4,6 +4,7 @@ mod measuring;
 mod studying;
 
 use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::Progress;
 use lightbench_assets::cache::Cache;
@@ -43,7 +44,8 @@ pub struct Workbench {
     gpu: GpuOptions,
     progress: Progress,
     tell: Box<dyn Fn(Remark) + Send>,
-    device: Option<Device>,
+    /// Opened with the first frame; shared by the workbenches that stand beside each other.
+    device: Arc<Mutex<Option<Device>>>,
     /// The one that was used last stands last.
     scenes: Vec<Staged>,
     /// The one that was used last stands last.
@@ -90,7 +92,7 @@ impl Workbench {
             gpu,
             progress: progress.clone(),
             tell: Box::new(tell),
-            device: None,
+            device: Arc::default(),
             scenes: Vec::new(),
             pipelines: Vec::new(),
             cache: Cache::default(),
@@ -107,6 +109,23 @@ impl Workbench {
         self
     }
 
+    /// Another workbench over other files, which draws on the same device.
+    #[must_use]
+    pub fn beside(&self, files: &Files, tell: impl Fn(Remark) + Send + 'static) -> Self {
+        Self {
+            device: Arc::clone(&self.device),
+            ..Self::new(files, self.gpu.clone(), &self.progress, tell)
+        }
+    }
+
+    /// Opens the device, if it is not open yet.
+    ///
+    /// # Errors
+    /// No adapter that can draw.
+    pub fn open_device(&mut self) -> Result<(), LaboratoryError> {
+        self.open()
+    }
+
     /// Looks into a frame as if it were the first that is ever drawn.
     fn look<T>(
         &mut self,
@@ -116,8 +135,10 @@ impl Workbench {
         self.open()?;
         self.bring_scene(shot)?;
         self.bring_pipeline(shot)?;
+        let device = Arc::clone(&self.device);
+        let mut device = lock(&device);
         let (Some(device), Some(staged), Some(compiled)) = (
-            &mut self.device,
+            device.as_mut(),
             self.scenes.last_mut(),
             self.pipelines.last_mut(),
         ) else {
@@ -138,26 +159,25 @@ impl Workbench {
         );
         let found = look(&mut inspector);
         drop(inspector);
-        self.tell_warnings();
+        let warnings = device.renderer.take_warnings();
+        self.tell_warnings(warnings);
         Ok(found?)
     }
 
     /// Opens the device, the first time.
     fn open(&mut self) -> Result<(), LaboratoryError> {
-        if self.device.is_none() {
+        let mut device = lock(&self.device);
+        if device.is_none() {
             let gpu = Gpu::open(&self.gpu).map_err(RenderError::from)?;
             let renderer = Renderer::new(gpu);
             let compiler = renderer.compiler();
-            self.device = Some(Device { renderer, compiler });
+            *device = Some(Device { renderer, compiler });
         }
         Ok(())
     }
 
-    fn tell_warnings(&mut self) {
-        let Some(device) = &mut self.device else {
-            return;
-        };
-        for warning in device.renderer.take_warnings() {
+    fn tell_warnings(&mut self, warnings: Vec<String>) {
+        for warning in warnings {
             // Each look begins anew, and would warn anew.
             if !self.warned.contains(&warning) {
                 self.warned.push(warning.clone());
@@ -246,7 +266,8 @@ impl Workbench {
             compiled.settings = shot.pipeline_settings.clone();
             return Ok(compiled);
         }
-        let Some(device) = &mut self.device else {
+        let mut device = lock(&self.device);
+        let Some(device) = device.as_mut() else {
             return Err(LaboratoryError::Other("no device is open".to_owned()));
         };
         Ok(Compiled {
@@ -255,6 +276,11 @@ impl Workbench {
             pipeline: device.compiler.compile(&self.files, &desc)?,
         })
     }
+}
+
+/// A workbench that failed in the middle of a frame left nothing behind that the next one uses.
+fn lock(device: &Mutex<Option<Device>>) -> MutexGuard<'_, Option<Device>> {
+    device.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Laboratory for Workbench {
