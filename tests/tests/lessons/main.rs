@@ -2,6 +2,7 @@
 //! with a message that names the cause.
 #![allow(clippy::unwrap_used)]
 
+mod figures;
 mod texts;
 mod variants;
 

@@ -367,7 +367,7 @@ impl Bench {
         let (mut scripts, mut stages) = (Vec::new(), Vec::new());
         let mut first: Option<Workbench> = None;
         for source in sources {
-            let reference = Stage::of_checks(&source, CHECKS)?;
+            let reference = Stage::of_checks(lesson, &source, CHECKS)?;
             let work = Stage::of_work(lesson, &source, &submission.given())?;
             let mut benches = Vec::new();
             for stage in [&reference, &work] {

@@ -33,7 +33,7 @@ pub use copies::{CopiedFrom, copied_from, says_the_same};
 pub use folders::{LessonOf, begin, lesson_of, pack};
 pub use hand_in::{HAND_IN, HandInError, HandedIn, hand_in, unpack_hand_in};
 pub use imports::{Import, forbidden, imports};
-pub use model::{About, Constant, Criterion, KnownMistake, LESSON_FILE, Question, Task};
+pub use model::{About, Constant, Criterion, Figure, KnownMistake, LESSON_FILE, Question, Task};
 pub use outcome::{
     CriterionOutcome, Finding, OUTCOME_SCHEMA, Outcome, Refusal, RefusalKind, State, TaskOutcome,
 };

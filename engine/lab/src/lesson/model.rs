@@ -36,6 +36,9 @@ pub struct About {
     /// What is to be measured.
     #[serde(default, rename = "question")]
     pub questions: Vec<Question>,
+    /// Pictures of its text that are rendered from its solution.
+    #[serde(default, rename = "figure")]
+    pub figures: Vec<Figure>,
     /// Mistakes that students make, to be named where a check finds their trace.
     #[serde(default, rename = "mistake")]
     pub mistakes: Vec<KnownMistake>,
@@ -132,6 +135,19 @@ impl Question {
     pub fn function(&self) -> String {
         format!("answer_{}", self.id)
     }
+}
+
+/// A picture of the text: the lesson's scene through its pipeline, with the solution.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// The file, below the lesson's folder.
+    pub file: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Values of parameters of the scene, as `name=value`.
+    #[serde(default)]
+    pub set: Vec<String>,
 }
 
 /// A mistake with its explanation.

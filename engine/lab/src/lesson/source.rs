@@ -18,14 +18,18 @@ pub struct Source {
     files: Files,
     /// What their paths in `files` begin with; empty, or with a slash at its end.
     root: String,
+    /// The same as a person knows it.
+    shown: String,
 }
 
 impl Source {
     /// A lesson of the project or of the program.
     pub(super) fn of_files(files: &Files, name: &str) -> Self {
+        let root = format!("{LESSONS}/{name}/");
         Self {
             files: files.clone(),
-            root: format!("{LESSONS}/{name}/"),
+            shown: root.clone(),
+            root,
         }
     }
 
@@ -37,12 +41,21 @@ impl Source {
         Ok(Self {
             files: Files::with_project(folder)?,
             root: String::new(),
+            shown: format!(
+                "{}/",
+                folder.display().to_string().trim_end_matches(['/', '\\'])
+            ),
         })
     }
 
     /// The path of a file as a person knows it.
     #[must_use]
     pub fn shown(&self, path: &str) -> String {
+        format!("{}{path}", self.shown)
+    }
+
+    /// The path of a file in the store.
+    fn path(&self, path: &str) -> String {
         format!("{}{path}", self.root)
     }
 
@@ -51,7 +64,7 @@ impl Source {
     /// # Errors
     /// A file that is not there or can't be read.
     pub fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        self.files.read(&self.shown(path))
+        self.files.read(&self.path(path))
     }
 
     /// The text of a file.
@@ -59,13 +72,13 @@ impl Source {
     /// # Errors
     /// As [`Source::read`], and text that is not UTF-8.
     pub fn read_text(&self, path: &str) -> Result<String, FileError> {
-        self.files.read_text(&self.shown(path))
+        self.files.read_text(&self.path(path))
     }
 
     /// Whether a file is there.
     #[must_use]
     pub fn has(&self, path: &str) -> bool {
-        self.files.exists(&self.shown(path))
+        self.files.exists(&self.path(path))
     }
 
     /// The paths of all files below one of its folders, without that folder's name.
@@ -73,7 +86,7 @@ impl Source {
     /// # Errors
     /// A folder that can't be read.
     pub fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        let folder = self.shown(folder);
+        let folder = self.path(folder);
         let listed = self.files.list(&folder, "")?;
         Ok(listed
             .iter()

@@ -24,19 +24,25 @@ impl Stage {
         })
     }
 
-    /// Copies what lies below a folder of a lesson.
-    fn take(&self, source: &Source, folder: &str) -> Result<(), FileError> {
-        for path in source.list(folder)? {
+    /// Copies what lies below a folder of a lesson, but for some files.
+    fn take(&self, source: &Source, folder: &str, without: &[String]) -> Result<(), FileError> {
+        let paths = source.list(folder)?;
+        for path in paths.iter().filter(|path| !without.contains(path)) {
             self.files
-                .write(&path, &source.read(&format!("{folder}/{path}"))?)?;
+                .write(path, &source.read(&format!("{folder}/{path}"))?)?;
         }
         Ok(())
     }
 
-    /// What the checks themselves draw with: their own files over the shipped ones.
-    pub(super) fn of_checks(checks: &Source, file: &str) -> Result<Self, FileError> {
+    /// What the checks themselves draw with: the lesson's files without those that a student hands in.
+    pub(super) fn of_checks(
+        lesson: &Lesson,
+        checks: &Source,
+        file: &str,
+    ) -> Result<Self, FileError> {
         let stage = Self::new()?;
-        stage.take(checks, CHECK_FILES)?;
+        stage.take(&lesson.source, STARTER, &lesson.about.submits)?;
+        stage.take(checks, CHECK_FILES, &[])?;
         stage.files.write(file, &checks.read(file)?)?;
         Ok(stage)
     }
@@ -48,11 +54,11 @@ impl Stage {
         submitted: &[(String, Vec<u8>)],
     ) -> Result<Self, FileError> {
         let stage = Self::new()?;
-        stage.take(&lesson.source, STARTER)?;
+        stage.take(&lesson.source, STARTER, &lesson.about.submits)?;
         for (path, bytes) in submitted {
             stage.files.write(path, bytes)?;
         }
-        stage.take(checks, CHECK_FILES)?;
+        stage.take(checks, CHECK_FILES, &[])?;
         Ok(stage)
     }
 }
