@@ -7,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use cli_support::{Project, run_in};
+use lightbench::lab::lesson::unpack_hand_in;
 use tempfile::TempDir;
 
 fn lesson() -> PathBuf {
@@ -214,6 +215,51 @@ fn a_measured_answer_is_computed_from_its_report() {
 }
 
 #[test]
+fn one_archive_is_handed_in() {
+    let (_place, project) = started(&["--id", "ana/../pérez"]);
+    solve(&project, "shaders/lib/by_hand.wgsl");
+    fs::create_dir_all(project.join("reports")).unwrap();
+    fs::write(project.join("reports/a.json"), "{}").unwrap();
+    fs::write(
+        project.join("answers.toml"),
+        "[passes]\nvalue = 1\nreport = \"reports/a.json\"\n",
+    )
+    .unwrap();
+    let handed = run_in(&project, &["hand-in"], &[]).succeeded();
+    assert!(
+        handed.stdout.contains("Points: 14 of 21"),
+        "{}",
+        handed.all()
+    );
+    let archive = project.join("01-first-light-ana_.._pérez.tar.gz");
+    let bytes = fs::read(&archive).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    let about = unpack_hand_in(&bytes, out.path()).unwrap();
+    assert_eq!(
+        (about.lesson.as_str(), about.points),
+        ("01-first-light", 14)
+    );
+    assert_eq!(about.student.as_deref(), Some("ana/../pérez"));
+    for path in [
+        "shaders/lib/by_hand.wgsl",
+        "scripts/scenes/first_light.rhai",
+        "answers.toml",
+        "reports/a.json",
+    ] {
+        assert_eq!(
+            fs::read(out.path().join(path)).unwrap(),
+            fs::read(project.join(path)).unwrap()
+        );
+    }
+    assert!(
+        !out.path().join("README.md").exists(),
+        "nothing but what is asked for"
+    );
+    run_in(&project, &["hand-in", "--out", "again.tar.gz"], &[]).succeeded();
+    assert_eq!(fs::read(project.join("again.tar.gz")).unwrap(), bytes);
+}
+
+#[test]
 fn a_pack_leaves_out_the_answers() {
     let place = tempfile::tempdir().unwrap();
     let lesson = lesson();
@@ -254,8 +300,8 @@ fn a_pack_leaves_out_the_answers() {
 #[test]
 fn a_new_lesson_runs_as_it_is() {
     let project = Project::new();
-    project.run(&["new", "lesson", "night_sky"]).succeeded();
-    let lesson = "lessons/02-night_sky";
+    project.run(&["new", "lesson", "90-night_sky"]).succeeded();
+    let lesson = "lessons/90-night_sky";
     let solved = project
         .run(&["check", lesson, "--work", &format!("{lesson}/solution")])
         .succeeded();
@@ -272,9 +318,12 @@ fn a_new_lesson_runs_as_it_is() {
     project
         .run(&["new", "lesson", "no way"])
         .failed(2, &["lesson's name"]);
+    // Without a number it comes after the last one.
+    project.run(&["new", "lesson", "dusk"]).succeeded();
+    assert!(project.file("lessons/91-dusk/lesson.toml").is_file());
     let listed = project.run(&["lesson", "list"]).succeeded();
     assert!(
-        listed.stdout.contains("02-night_sky") && listed.stdout.contains("Night sky"),
+        listed.stdout.contains("90-night_sky") && listed.stdout.contains("Night sky"),
         "{}",
         listed.all()
     );

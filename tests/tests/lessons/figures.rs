@@ -38,8 +38,12 @@ fn figures_are_what_the_solutions_draw() {
             let mut scene = load_scene(&files, &lesson.about.scene, &settings, &progress).unwrap();
             renderer.reset_scene();
             let [width, height] = figure.size;
-            let options = CaptureOptions { size: (width, height), frame: 0 };
-            let picture = capture(&mut renderer, &mut scene, &mut pipeline, options, &progress).unwrap();
+            let options = CaptureOptions {
+                size: (width, height),
+                frame: 0,
+            };
+            let picture =
+                capture(&mut renderer, &mut scene, &mut pipeline, options, &progress).unwrap();
             let file = folder.join(&figure.file);
             if update {
                 fs::create_dir_all(file.parent().unwrap()).unwrap();
@@ -50,14 +54,23 @@ fn figures_are_what_the_solutions_draw() {
                 panic!("{} is no 8-bit picture", file.display());
             };
             let flip = difference(&kept, &picture.output);
-            assert!(flip <= SAME_PICTURE, "{}: FLIP {flip}; render it anew with `./x docs`", file.display());
+            assert!(
+                flip <= SAME_PICTURE,
+                "{}: FLIP {flip}; render it anew with `./x docs`",
+                file.display()
+            );
             drawn.push(figure.file.clone());
         }
         // Each picture of the texts is one of these, so that none grows old.
         for (_, language) in Language::ALL {
             for link in lesson.text(language).unwrap().links() {
                 if link.target.starts_with("figures/") {
-                    assert!(drawn.contains(&link.target), "{}: {}", lesson.name, link.target);
+                    assert!(
+                        drawn.contains(&link.target),
+                        "{}: {}",
+                        lesson.name,
+                        link.target
+                    );
                 }
             }
         }
@@ -65,5 +78,9 @@ fn figures_are_what_the_solutions_draw() {
 }
 
 fn difference(a: &LdrImage, b: &LdrImage) -> f64 {
-    diff_ldr(a, b, DiffOptions::default()).unwrap().difference.flip.mean
+    diff_ldr(a, b, DiffOptions::default())
+        .unwrap()
+        .difference
+        .flip
+        .mean
 }
