@@ -45,7 +45,9 @@ pub struct Workbench {
     progress: Progress,
     tell: Box<dyn Fn(Remark) + Send>,
     /// Opened with the first frame; shared by the workbenches that stand beside each other.
-    device: Arc<Mutex<Option<Device>>>,
+    device: Arc<Mutex<Option<Renderer>>>,
+    /// Of the own files: a compiler knows shaders by their paths.
+    compiler: Option<Compiler>,
     /// The one that was used last stands last.
     scenes: Vec<Staged>,
     /// The one that was used last stands last.
@@ -58,11 +60,6 @@ pub struct Workbench {
 
 /// Says how a process is started that measures into a folder.
 type LaunchFor = Box<dyn Fn(&Path) -> Launch + Send>;
-
-struct Device {
-    renderer: Renderer,
-    compiler: Compiler,
-}
 
 /// A scene at a moment.
 struct Staged {
@@ -93,6 +90,7 @@ impl Workbench {
             progress: progress.clone(),
             tell: Box::new(tell),
             device: Arc::default(),
+            compiler: None,
             scenes: Vec::new(),
             pipelines: Vec::new(),
             cache: Cache::default(),
@@ -137,7 +135,7 @@ impl Workbench {
         self.bring_pipeline(shot)?;
         let device = Arc::clone(&self.device);
         let mut device = lock(&device);
-        let (Some(device), Some(staged), Some(compiled)) = (
+        let (Some(renderer), Some(staged), Some(compiled)) = (
             device.as_mut(),
             self.scenes.last_mut(),
             self.pipelines.last_mut(),
@@ -148,9 +146,9 @@ impl Workbench {
         };
         // Nothing of another frame may show in this one. A new inspector gives the pipeline new
         // targets and buffers, so history begins afresh too.
-        device.renderer.reset_scene();
+        renderer.reset_scene();
         let mut inspector = FrameInspector::new(
-            &mut device.renderer,
+            renderer,
             &self.files,
             &mut staged.scene,
             &mut compiled.pipeline,
@@ -159,7 +157,7 @@ impl Workbench {
         );
         let found = look(&mut inspector);
         drop(inspector);
-        let warnings = device.renderer.take_warnings();
+        let warnings = renderer.take_warnings();
         self.tell_warnings(warnings);
         Ok(found?)
     }
@@ -167,11 +165,13 @@ impl Workbench {
     /// Opens the device, the first time.
     fn open(&mut self) -> Result<(), LaboratoryError> {
         let mut device = lock(&self.device);
-        if device.is_none() {
-            let gpu = Gpu::open(&self.gpu).map_err(RenderError::from)?;
-            let renderer = Renderer::new(gpu);
-            let compiler = renderer.compiler();
-            *device = Some(Device { renderer, compiler });
+        let renderer = match device.take() {
+            Some(renderer) => renderer,
+            None => Renderer::new(Gpu::open(&self.gpu).map_err(RenderError::from)?),
+        };
+        let renderer = device.insert(renderer);
+        if self.compiler.is_none() {
+            self.compiler = Some(renderer.compiler());
         }
         Ok(())
     }
@@ -266,20 +266,19 @@ impl Workbench {
             compiled.settings = shot.pipeline_settings.clone();
             return Ok(compiled);
         }
-        let mut device = lock(&self.device);
-        let Some(device) = device.as_mut() else {
+        let Some(compiler) = &mut self.compiler else {
             return Err(LaboratoryError::Other("no device is open".to_owned()));
         };
         Ok(Compiled {
             name: shot.pipeline.clone(),
             settings: shot.pipeline_settings.clone(),
-            pipeline: device.compiler.compile(&self.files, &desc)?,
+            pipeline: compiler.compile(&self.files, &desc)?,
         })
     }
 }
 
 /// A workbench that failed in the middle of a frame left nothing behind that the next one uses.
-fn lock(device: &Mutex<Option<Device>>) -> MutexGuard<'_, Option<Device>> {
+fn lock(device: &Mutex<Option<Renderer>>) -> MutexGuard<'_, Option<Renderer>> {
     device.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

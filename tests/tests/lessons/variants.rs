@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use lightbench::lab::lesson::{Lesson, RefusalKind, begin, pack};
+use lightbench::assets::Progress;
+use lightbench::lab::lesson::{CheckOptions, Lesson, RefusalKind, begin, check, pack};
 use serde::Deserialize;
 
 use super::{all, checked, copy, solved, told};
@@ -259,6 +260,39 @@ fn broken_and_missing_files_are_told_with_their_places() {
     let outcome = checked(&lesson, work.path(), &["lambert"]);
     let refusal = outcome.tasks[0].refusal.as_ref().unwrap();
     assert_eq!((refusal.kind, outcome.points), (RefusalKind::Missing, 0));
+}
+
+/// Hidden checks are passed by the solution, and find what fits the student's checks alone.
+#[test]
+fn hidden_checks_find_what_was_made_for_the_others() {
+    for (folder, lesson) in all() {
+        let hidden = folder.join("hidden");
+        if !hidden.join("checks.rhai").is_file() {
+            continue;
+        }
+        let work = solved(&folder);
+        let options = CheckOptions {
+            hidden: Some(hidden),
+            only: task_ids(&lesson).into_iter().map(str::to_owned).collect(),
+            ..CheckOptions::default()
+        };
+        let checked =
+            |work: &Path| check(&lesson, work, &options, &Progress::new(), |_| {}).unwrap();
+        let outcome = checked(work.path());
+        assert_eq!(outcome.points, outcome.of, "{}", told(&outcome));
+        if lesson.name == "01-first-light" {
+            // The normal of the student's checks in place of the one that is given.
+            edit(
+                work.path(),
+                "shaders/lib/by_hand.wgsl",
+                "dot(normal, to_light)",
+                "dot(vec3f(1.0, 2.0, 2.0) / 3.0, to_light)",
+            );
+            let of_student = super::checked(&lesson, work.path(), &["irradiance"]);
+            assert_eq!(of_student.points, of_student.of, "{}", told(&of_student));
+            assert_eq!(checked(work.path()).task("irradiance").unwrap().points, 0);
+        }
+    }
 }
 
 /// A student has the pack, and nothing that was kept back.

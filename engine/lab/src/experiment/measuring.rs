@@ -6,7 +6,7 @@ use lightbench_assets::color::encode_srgb8;
 use lightbench_render::{Format, TargetImage};
 use lightbench_script::{Cost, LaboratoryError, Shot, Task, TimeSpan};
 
-use super::{Device, Workbench, lock};
+use super::{Workbench, lock};
 use crate::diff::{DiffOptions, diff_ldr};
 use crate::measure::{MeasureError, MeasureOptions, measure};
 use crate::metrics::linear_errors;
@@ -43,7 +43,7 @@ impl Workbench {
         };
         let device = Arc::clone(&self.device);
         let mut device = lock(&device);
-        let Some(Device { renderer, .. }) = device.as_mut() else {
+        let Some(renderer) = device.as_mut() else {
             return Err(LaboratoryError::Other("no device is open".to_owned()));
         };
         renderer.reset_scene();
