@@ -1,6 +1,7 @@
 //! Everything that menus and keys do, in one table.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
+use lightbench::script::overlays::NewKind;
 
 use super::editor::Editor;
 use super::layout::Panel;
@@ -41,6 +42,22 @@ pub enum Action {
     LocalAxes,
     /// Choose no entity.
     SelectNone,
+    /// Make an entity.
+    Create(NewKind),
+    /// Make copies of what is chosen.
+    Duplicate,
+    /// Remove what is chosen.
+    Delete,
+    /// Call what is chosen otherwise.
+    Rename,
+    /// Hang what is chosen below nothing.
+    Detach,
+    /// Hide what is chosen, or show it.
+    Hide,
+    /// Lock what is chosen, or unlock it.
+    Lock,
+    /// Write the scene to a file.
+    SaveScene,
     /// Back to the scene's camera.
     ResetCamera,
     /// The pipeline after the present one.
@@ -100,12 +117,13 @@ const fn entry(action: Action, title: &'static str, shortcut: Option<KeyboardSho
 }
 
 /// The menus, in their order, each with its groups of actions.
-pub const MENUS: [(&str, &[&[Entry]]); 6] = [
+pub const MENUS: [(&str, &[&[Entry]]); 7] = [
     (
         "File",
         &[
             &[
                 entry(Action::Palette, "Find an action", command(Key::P)),
+                entry(Action::SaveScene, "Save scene as", command(Key::S)),
                 entry(Action::Reload, "Reload everything", key(Key::F5)),
             ],
             &[entry(Action::Quit, "Quit", command(Key::Q))],
@@ -134,6 +152,46 @@ pub const MENUS: [(&str, &[&[Entry]]); 6] = [
                 "Choose nothing",
                 key(Key::Escape),
             )],
+        ],
+    ),
+    (
+        "Entity",
+        &[
+            &[
+                entry(Action::Create(NewKind::Empty), "Create empty", None),
+                entry(Action::Create(NewKind::Box), "Create box", None),
+                entry(Action::Create(NewKind::Sphere), "Create sphere", None),
+                entry(Action::Create(NewKind::Cylinder), "Create cylinder", None),
+                entry(Action::Create(NewKind::Cone), "Create cone", None),
+                entry(Action::Create(NewKind::Torus), "Create torus", None),
+                entry(Action::Create(NewKind::Plane), "Create plane", None),
+            ],
+            &[
+                entry(
+                    Action::Create(NewKind::PointLight),
+                    "Create point light",
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::SpotLight),
+                    "Create spot light",
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::DirectionalLight),
+                    "Create directional light",
+                    None,
+                ),
+                entry(Action::Create(NewKind::Camera), "Create camera", None),
+            ],
+            &[
+                entry(Action::Duplicate, "Duplicate", command(Key::D)),
+                entry(Action::Delete, "Delete", key(Key::Delete)),
+                entry(Action::Rename, "Rename", key(Key::F2)),
+                entry(Action::Detach, "Put below nothing", None),
+                entry(Action::Hide, "Hide or show", key(Key::H)),
+                entry(Action::Lock, "Lock or unlock", None),
+            ],
         ],
     ),
     (
@@ -273,7 +331,7 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         // Keys are for its amount.
         return;
     }
-    if editor.palette.is_some() {
+    if editor.palette.is_some() || editor.saving.is_some() {
         return;
     }
     // Escape closes a menu or leaves a field first.

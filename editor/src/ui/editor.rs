@@ -36,6 +36,8 @@ pub struct Editor {
     pub(super) viewport: ViewportPanel,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
+    /// The window that saves the scene, while it is open.
+    pub(super) saving: Option<panels::saving::Saving>,
     /// What is drawn over the picture.
     pub(super) marks: Marks,
     /// What is kept over restarts.
@@ -73,6 +75,7 @@ impl Editor {
             plots: PlotsPanel::default(),
             viewport: ViewportPanel::default(),
             palette: None,
+            saving: None,
             marks: Marks::default(),
             kept,
             bring: None,
@@ -130,6 +133,7 @@ impl Editor {
         }
         panels::help::show(self, &ctx);
         panels::palette::show(self, &ctx);
+        panels::saving::show(self, &ctx);
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -164,6 +168,14 @@ impl Editor {
             Action::Tool(tool) => self.viewport.handles.tool = tool,
             Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
             Action::SelectNone => workbench.selection.clear(),
+            Action::Create(_)
+            | Action::Duplicate
+            | Action::Delete
+            | Action::Rename
+            | Action::Detach
+            | Action::Hide
+            | Action::Lock => panels::entities::perform(self, action),
+            Action::SaveScene => self.saving = Some(panels::saving::Saving::new(workbench)),
             Action::NextPipeline => self.select_beside(1),
             Action::PreviousPipeline => self.select_beside(-1),
             Action::Reload => workbench.reload(),

@@ -15,6 +15,7 @@ pub mod parameters;
 pub mod passes;
 pub mod pixel;
 pub mod plots;
+pub mod saving;
 pub mod select;
 pub mod status;
 pub mod targets;
