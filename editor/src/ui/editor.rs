@@ -54,6 +54,8 @@ pub struct Editor {
     pub(super) paste: Option<PasteWindow>,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
+    /// The window that saves the scene, while it is open.
+    pub(super) saving: Option<panels::saving::Saving>,
     /// What is drawn over the picture.
     pub(super) marks: Marks,
     /// What is kept over restarts.
@@ -105,6 +107,7 @@ impl Editor {
             notebook: NotebookPanel::default(),
             paste: None,
             palette: None,
+            saving: None,
             marks: Marks::default(),
             kept,
             bring: None,
@@ -171,6 +174,7 @@ impl Editor {
         panels::view_text::show(self, &ctx);
         panels::code::leaving::show(self, &ctx);
         self.follow_dialogs(&ctx);
+        panels::saving::show(self, &ctx);
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -212,6 +216,14 @@ impl Editor {
             Action::PassAfter => workbench.stop_by(1),
             Action::PassBefore => workbench.stop_by(-1),
             Action::WholeFrame => workbench.stop_after(None),
+            Action::Create(_)
+            | Action::Duplicate
+            | Action::Delete
+            | Action::Rename
+            | Action::Detach
+            | Action::Hide
+            | Action::Lock => panels::entities::perform(self, action),
+            Action::SaveScene => self.saving = Some(panels::saving::Saving::new(workbench)),
             Action::NextPipeline => self.select_beside(1),
             Action::PreviousPipeline => self.select_beside(-1),
             Action::Reload => workbench.reload(),
@@ -233,10 +245,9 @@ impl Editor {
             Action::About => self.about = true,
             Action::EditScene => self.edit_scene(),
             Action::EditPipeline => self.edit_pipeline(),
-            Action::SaveFile => self.save_shown_file(),
+            Action::Save => self.save(),
             Action::OpenProject => self.ask_for(Question::Project),
             Action::OpenScene => self.ask_for(Question::Scene),
-            Action::SaveSceneAs => self.ask_for(Question::SaveScene),
             Action::Gallery => {
                 let (files, wake) = (
                     self.workbench.files().clone(),
