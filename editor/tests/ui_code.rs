@@ -114,10 +114,11 @@ fn a_wrong_line_shows_its_mistake_at_the_line_and_clicks_lead_there() {
     assert_eq!(places(&bench).len(), 3);
     for at in places(&bench) {
         bench.key(CTRL, Key::Home);
-        assert_eq!(bench.count("line 1, column 1"), 1);
+        assert_eq!(bench.count("line 1, column 1"), 1, "before {at}");
         bench.click_at(at);
         bench.harness.run_steps(3);
-        assert_eq!(bench.count(&format!("line {line}, column ")), 1);
+        let column = format!("line {line}, column ");
+        assert_eq!(bench.count(&column), 1, "after {at}");
     }
 
     // The caret is at the mistake: there the missing value is typed.
@@ -200,7 +201,7 @@ fn a_change_outside_while_there_is_unsaved_text_is_a_choice() {
     assert_eq!(bench.count("+ // mine"), 1);
     bench.press("Take theirs");
     assert_eq!(text(&bench), theirs);
-    assert_eq!(bench.count("changed outside"), 0);
+    assert_eq!(bench.count("Nothing was overwritten"), 0);
 
     std::fs::write(&path, &good).unwrap();
     bench.until("the first text", |editor| {

@@ -55,6 +55,8 @@ pub struct Editor {
     pub kept: Kept,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
+    /// A panel to show, also where somebody has hidden it, once all are drawn.
+    revealed: Option<Panel>,
     pub(super) hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
@@ -101,6 +103,7 @@ impl Editor {
             marks: Marks::default(),
             kept,
             bring: None,
+            revealed: None,
             hint: true,
             help: false,
             about: false,
@@ -117,6 +120,11 @@ impl Editor {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
         self.workbench.move_to(gpu);
+    }
+
+    /// The same, from within a panel: the layout is at work until all are drawn.
+    pub(super) fn reveal(&mut self, panel: Panel) {
+        self.revealed = Some(panel);
     }
 
     /// Brings a panel before those that share its place.
@@ -163,6 +171,10 @@ impl Editor {
         panels::palette::show(self, &ctx);
         panels::code::leaving::show(self, &ctx);
         self.follow_dialogs(&ctx);
+        if let Some(panel) = self.revealed.take() {
+            self.show(panel);
+            ctx.request_repaint();
+        }
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
