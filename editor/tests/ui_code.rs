@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
+use lightbench_editor::ui::actions::Action;
 use lightbench_editor::ui::code::document::Outside;
 use lightbench_editor::ui::layout::Panel;
 
@@ -142,13 +143,22 @@ fn a_mistake_in_a_shader_opens_the_shader() {
     bench.until("the mistake", |editor| Bench::has_problems(editor));
     bench.harness.run_steps(2);
     let place = format!("{SHADER}:{line}");
-    let all = bench.harness.query_all_by_label_contains(&place);
-    let first = all.map(|node| node.rect().center()).next().unwrap();
-    bench.click_at(first);
-    bench.harness.run_steps(3);
-    assert_eq!(bench.harness.state().code.shown().unwrap().path, SHADER);
-    assert_eq!(bench.count(&format!("line {line}: ")), 1);
-    assert_eq!(bench.count(&format!("line {line}, column ")), 1);
+    // From each of the three places, also while the panel is hidden.
+    for nth in 0..3 {
+        let mut all = bench.harness.query_all_by_label_contains(&place);
+        let at = all.nth(nth).unwrap().rect().center();
+        drop(all);
+        bench.click_at(at);
+        bench.harness.run_steps(3);
+        assert_eq!(bench.harness.state().code.shown().unwrap().path, SHADER);
+        assert_eq!(bench.count(&format!("line {line}: ")), 1, "at {at}");
+        assert_eq!(bench.count(&format!("line {line}, column ")), 1, "at {at}");
+        let ctx = bench.harness.ctx.clone();
+        let editor = bench.harness.state_mut();
+        editor.perform(Action::Toggle(Panel::Code), &ctx);
+        bench.harness.run_steps(3);
+        assert_eq!(bench.count(&format!("line {line}: ")), 0);
+    }
 }
 
 /// A scene outside the project is named by its path, and belongs to whoever opened it.
