@@ -355,6 +355,9 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
     }
 
     fn tab_title_for_pane(&mut self, panel: &Panel) -> egui::WidgetText {
+        if *panel == Panel::Code && self.editor.code.unsaved().next().is_some() {
+            return format!("{} •", panel.title()).into();
+        }
         panel.title().into()
     }
 
