@@ -33,10 +33,10 @@ impl Editor {
     pub fn open_code(&mut self, path: &str, spot: Option<Spot>) {
         if let Err(error) = self.code.open(self.workbench.files(), path, spot) {
             self.workbench.log.error(error.to_string());
-            self.show(Panel::Log);
+            self.reveal(Panel::Log);
             return;
         }
-        self.show(Panel::Code);
+        self.reveal(Panel::Code);
         self.code_panel.focus();
     }
 
@@ -144,7 +144,7 @@ impl Editor {
             }
             Err(error) => {
                 self.workbench.log.error(error.to_string());
-                self.show(Panel::Log);
+                self.reveal(Panel::Log);
                 false
             }
         }
@@ -155,7 +155,7 @@ impl Editor {
         let mut files = self.workbench.files().clone();
         self.code.restore(&mut files, index);
         self.workbench.use_files(files);
-        self.show(Panel::Code);
+        self.reveal(Panel::Code);
         self.code_panel.focus();
     }
 

@@ -92,12 +92,12 @@ impl Wake for Repaint {
 }
 
 impl Dialogs {
-    /// Asks. One question is asked at a time.
+    /// Asks. Who asks again while a dialog should be open does not see it: a path is asked for.
     pub fn ask(&mut self, question: Question, begin_at: Option<&Path>) {
-        if self.open.is_some() || self.typed.is_some() {
+        if self.typed.is_some() {
             return;
         }
-        if !self.native {
+        if self.open.take().is_some() || !self.native {
             self.ask_for_path(question, begin_at);
             return;
         }

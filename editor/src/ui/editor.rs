@@ -62,6 +62,8 @@ pub struct Editor {
     pub kept: Kept,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
+    /// A panel to show, also where somebody has hidden it, once all are drawn.
+    revealed: Option<Panel>,
     pub(super) hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
@@ -111,6 +113,7 @@ impl Editor {
             marks: Marks::default(),
             kept,
             bring: None,
+            revealed: None,
             hint: true,
             help: false,
             about: false,
@@ -127,6 +130,11 @@ impl Editor {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
         self.workbench.move_to(gpu);
+    }
+
+    /// The same, from within a panel: the layout is at work until all are drawn.
+    pub(super) fn reveal(&mut self, panel: Panel) {
+        self.revealed = Some(panel);
     }
 
     /// Brings a panel before those that share its place.
@@ -175,6 +183,10 @@ impl Editor {
         panels::code::leaving::show(self, &ctx);
         self.follow_dialogs(&ctx);
         panels::saving::show(self, &ctx);
+        if let Some(panel) = self.revealed.take() {
+            self.show(panel);
+            ctx.request_repaint();
+        }
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -371,6 +383,9 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
     }
 
     fn tab_title_for_pane(&mut self, panel: &Panel) -> egui::WidgetText {
+        if *panel == Panel::Code && self.editor.code.unsaved().next().is_some() {
+            return format!("{} •", panel.title()).into();
+        }
         panel.title().into()
     }
 
