@@ -296,8 +296,8 @@ fn picture(
         let text = format!("{width} x {height}  {}  {}", format.name(), bytes(size));
         ui.label(RichText::new(text).monospace().small());
     }
-    let height = bottom - ui.cursor().top();
-    let available = egui::vec2(ui.available_width(), height.max(LEAST_HEIGHT));
+    let left = bottom - ui.cursor().top();
+    let available = egui::vec2(ui.available_width(), left.max(LEAST_HEIGHT));
     let aspect = width as f32 / height.max(1) as f32;
     let size = if available.x / available.y.max(1.0) > aspect {
         egui::vec2(available.y * aspect, available.y)
