@@ -16,6 +16,8 @@ use crate::ui::workbench::sight::Sight;
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     ui.add_space(1.0);
     ui.horizontal_wrapped(|ui| {
+        // A button goes to the next line as a whole.
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         scene(editor, ui);
         ui.separator();
         pipeline(editor, ui);
