@@ -34,15 +34,15 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     lamps(editor, ui);
 }
 
-/// A table of four columns that may be wider than the panel.
+/// A table that may be wider than the panel.
 fn wide(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
     ScrollArea::horizontal().id_salt(name).show(ui, |ui| {
-        Grid::new(name).num_columns(4).striped(true).show(ui, rows);
+        Grid::new(name).striped(true).show(ui, rows);
     });
 }
 
 fn numbers(values: [f64; 3]) -> String {
-    values.map(|value| format!("{value:9.5}")).join(" ")
+    values.map(|value| format!("{value:8.5}")).join(" ")
 }
 
 fn lamps(editor: &mut Editor, ui: &mut Ui) {
@@ -179,23 +179,32 @@ fn beside(editor: &Editor, ui: &mut Ui) {
         return;
     };
     let now = workbench.probing.results;
+    let rgb = |value: Option<[f32; 4]>| value.map(|[r, g, b, _]| [r, g, b].map(f64::from));
+    let apart = |here: Option<[f64; 3]>, there: Option<[f64; 3]>| {
+        let both = here.zip(there);
+        both.map(|(here, there)| [0, 1, 2].map(|channel| there[channel] - here[channel]))
+    };
+    let (light, picture) = (
+        [rgb(now.hdr), rgb(there.hdr)],
+        [rgb(now.output), rgb(there.output)],
+    );
     wide(ui, "beside", |ui| {
-        for title in ["", "Here", "There", "Difference"] {
+        for title in ["", "Light", "Picture"] {
             ui.strong(title);
         }
         ui.end_row();
         let rows = [
-            ("Light", now.hdr, there.hdr),
-            ("Picture", now.output, there.output),
+            ("Here", light[0], picture[0]),
+            ("There", light[1], picture[1]),
+            (
+                "Difference",
+                apart(light[0], light[1]),
+                apart(picture[0], picture[1]),
+            ),
         ];
-        for (name, here, there) in rows {
+        for (name, light, picture) in rows {
             ui.label(name);
-            let rgb = |value: Option<[f32; 4]>| value.map(|[r, g, b, _]| [r, g, b].map(f64::from));
-            let (here, there) = (rgb(here), rgb(there));
-            let apart = here
-                .zip(there)
-                .map(|(here, there)| [0, 1, 2].map(|channel| there[channel] - here[channel]));
-            for value in [here, there, apart] {
+            for value in [light, picture] {
                 let text = value.map_or_else(|| MISSING.to_owned(), numbers);
                 ui.label(RichText::new(text).monospace());
             }

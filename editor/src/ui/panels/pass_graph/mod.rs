@@ -119,7 +119,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     graph.pan += response.drag_delta();
     if let Some(at) = response.hover_pos() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-        let factor = (scroll / 200.0).exp() * pinch;
+        let factor = (scroll / 400.0).exp() * pinch;
         if factor != 1.0 {
             graph.zoom_about(at - rect.min, factor);
         }
