@@ -36,6 +36,7 @@ fn shown(bench: &mut Bench) -> Vec<u8> {
         });
         ready
             && workbench.picture_is_current()
+            && !workbench.comparing.is_waiting()
             && !workbench.pipelines.is_busy()
             && workbench.comparing.pairs() > 0
     });
@@ -63,7 +64,8 @@ fn brighter(bench: &mut Bench) -> (Vec<u8>, Vec<u8>) {
     let workbench = &mut bench.harness.state_mut().workbench;
     workbench.set_other_parameter("exposure", Some(2.0.into()));
     bench.until("the brighter picture", |editor| {
-        editor.workbench.comparing.pairs() > before
+        let comparing = &editor.workbench.comparing;
+        comparing.pairs() > before && !comparing.is_waiting()
     });
     (first, second)
 }
