@@ -24,10 +24,11 @@ impl Workbench {
                 {
                     self.canvas.invalidate();
                 }
+                let beside = self.comparing.beside_ms();
                 for measured in results {
                     self.timings.measured(measured);
                     if let Some((scale, ms)) = self.canvas.measured(measured) {
-                        self.resolution.measured(scale, ms);
+                        self.resolution.measured(scale, ms + beside);
                     }
                 }
             }

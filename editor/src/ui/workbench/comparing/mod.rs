@@ -223,6 +223,13 @@ impl Comparing {
             .chain(self.problem.as_ref().filter(|_| self.is_on))
     }
 
+    /// Milliseconds that the device needs for B in addition to A.
+    pub(super) fn beside_ms(&self) -> f64 {
+        let side = self.side.as_ref().filter(|_| self.is_on);
+        let last = side.and_then(|side| side.timings.gpu_ms.values().last());
+        last.unwrap_or(0.0)
+    }
+
     /// The shaders of the program itself have changed.
     pub(super) fn forget_shaders(&mut self) {
         if let Some(combiner) = &mut self.combiner {
