@@ -335,19 +335,19 @@ fn a_new_lesson_runs_as_it_is() {
         (
             "points = 2",
             "points = 0",
-            ["lesson.toml:18", "from 1 to 1000"],
+            ["lesson.toml:21", "from 1 to 1000"],
         ),
         (
             "read = \"ramp\"",
             "read = \"rmap\"",
-            ["lesson.toml:13", "the place `rmap`"],
+            ["lesson.toml:15", "the place `rmap`"],
         ),
         (
             "[\"shaders/lib/exercise.wgsl\"]     #",
             "[\"shaders/lib/other.wgsl\"] #",
             ["lesson.toml:7", "lacks it"],
         ),
-        ("points = 2", "pionts = 2", ["lesson.toml:20", "pionts"]),
+        ("points = 2", "pionts = 2", ["lesson.toml:22", "pionts"]),
     ] {
         assert!(text.contains(from), "{from}");
         project.write(&file, text.replace(from, to));
