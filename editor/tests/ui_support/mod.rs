@@ -164,7 +164,10 @@ impl Bench {
             if workbench.picture_is_current() && workbench.drawn_size() == Some(size) {
                 break;
             }
-            assert!(began.elapsed() < PATIENCE, "no picture of the present state");
+            assert!(
+                began.elapsed() < PATIENCE,
+                "no picture of the present state"
+            );
             std::thread::sleep(Duration::from_millis(5));
         }
         let workbench = &mut self.harness.state_mut().workbench;
