@@ -116,6 +116,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     if let Some(choice) = choice {
         decide(editor, choice);
     }
+    let panel = &editor.code_panel;
+    let waits = panel.focus_next || panel.focus > 0 || panel.choose.is_some();
+    if waits || editor.code.going.is_some() {
+        ui.ctx().request_repaint();
+    }
 }
 
 fn nothing(ui: &mut Ui) {
