@@ -106,6 +106,8 @@ fn the_palette_finds_actions_scenes_and_pipelines_by_their_names() {
     for entry in ["Undo", "Frame the selection", "Grid and axes", "Console"] {
         assert!(bench.count(entry) >= 1, "{entry}");
     }
+    bench.harness.event(Event::Text("perspective".to_owned()));
+    bench.harness.run_steps(3);
     bench
         .harness
         .get_by(|node| {

@@ -157,11 +157,24 @@ impl Bench {
         }
     }
 
-    /// The bytes of the viewport's picture, once it shows the present state.
+    /// The bytes of the viewport's picture, once it shows the present state at its present size.
     pub fn picture(&mut self) -> Vec<u8> {
-        self.until("the picture of the present state", |editor| {
-            editor.workbench.picture_is_current()
-        });
+        let began = Instant::now();
+        loop {
+            self.harness.step();
+            let viewport = self.harness.get_by_role_and_label(Role::Image, "Viewport");
+            let size = viewport.rect().size();
+            let size = (size.x.round() as u32, size.y.round() as u32);
+            let workbench = &self.harness.state().workbench;
+            if workbench.picture_is_current() && workbench.drawn_size() == Some(size) {
+                break;
+            }
+            assert!(
+                began.elapsed() < PATIENCE,
+                "no picture of the present state"
+            );
+            std::thread::sleep(Duration::from_millis(5));
+        }
         let workbench = &mut self.harness.state_mut().workbench;
         let picture = workbench.picture().unwrap();
         read_bytes(workbench.gpu(), &picture.texture).unwrap()

@@ -42,13 +42,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             editor.gallery.is_open = false;
             open_card(editor, &card);
         }
-        Some(Wish::Edit(card)) => {
-            if card.is_own || editor.copy_into_project(&card.path) {
-                editor.gallery.is_open = false;
-                open_card(editor, &card);
-                editor.open_code(&card.path, None);
-            }
-        }
+        Some(Wish::Edit(card)) => edit_card(editor, &card),
         None => {}
     }
 }
@@ -58,6 +52,15 @@ fn open_card(editor: &mut Editor, card: &Card) {
         Opens::Scene => editor.open_scene(&card.name),
         Opens::Pipeline => editor.workbench.select_pipeline(&card.name),
         Opens::Script => editor.open_code(&card.path, None),
+    }
+}
+
+/// Opens a card with its text; one that is shipped is copied first.
+fn edit_card(editor: &mut Editor, card: &Card) {
+    if card.is_own || editor.copy_into_project(&card.path) {
+        editor.gallery.is_open = false;
+        open_card(editor, card);
+        editor.open_code(&card.path, None);
     }
 }
 

@@ -22,7 +22,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     ui.spacing_mut().item_spacing.y = 3.0;
     let count = log.lines().len();
     let area = ScrollArea::both().auto_shrink(false).stick_to_bottom(true);
-    area.show_rows(ui, row, count, |ui, range| {
+    // A row more, so that the bar at the bottom covers nothing that can be clicked.
+    area.show_rows(ui, row, count + 1, |ui, range| {
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         for line in log.lines().skip(range.start).take(range.len()) {
             ui.horizontal(|ui| {

@@ -32,6 +32,8 @@ pub struct CodePanel {
     comparing: bool,
     /// The file is saved once the text has taken what was typed.
     save: bool,
+    /// The text gets the keys from the next frame on: those of this one were for something else.
+    focus_next: bool,
     /// In how many frames the text gets the keys. A click beside it in the first one takes them away
     /// again.
     focus: u8,
@@ -42,7 +44,7 @@ pub struct CodePanel {
 impl CodePanel {
     /// Gives the text the keys.
     pub fn focus(&mut self) {
-        self.focus = 2;
+        self.focus_next = true;
     }
 }
 
@@ -78,6 +80,9 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
 
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    if std::mem::take(&mut editor.code_panel.focus_next) {
+        editor.code_panel.focus = 2;
+    }
     let offer = notes::offers(&editor.code, ui);
     tabs(editor, ui);
     let has_project = editor.workbench.files().project().is_some();
@@ -95,21 +100,26 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         choice = choice.or(notes::show(document, has_project, &mut panel.comparing, ui));
         wish = panel.find.show(ui, document, &panel.field.chosen);
     }
+    match marks {
+        Some(marks) => body(editor, ui, &marks),
+        None => nothing(ui),
+    }
     match wish {
         Some(Wish::Choose(range)) => editor.code_panel.choose = Some(range),
         Some(Wish::Go(spot)) => editor.code.going = Some(spot),
         Some(Wish::Back) => editor.code_panel.focus(),
         None => {}
     }
-    match marks {
-        Some(marks) => body(editor, ui, &marks),
-        None => nothing(ui),
-    }
     if std::mem::take(&mut editor.code_panel.save) {
         editor.save_shown_file();
     }
     if let Some(choice) = choice {
         decide(editor, choice);
+    }
+    let panel = &editor.code_panel;
+    let waits = panel.focus_next || panel.focus > 0 || panel.choose.is_some();
+    if waits || editor.code.going.is_some() {
+        ui.ctx().request_repaint();
     }
 }
 
@@ -197,7 +207,7 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let rect = egui::Rect::from_min_size(area.min, egui::vec2(area.width(), height));
     let place = going.map(|spot| text::range_of(&document.text, spot));
     if place.is_some() {
-        code_panel.focus();
+        code_panel.focus = 2;
     }
     let focus = code_panel.focus > 0;
     code_panel.focus = code_panel.focus.saturating_sub(1);
