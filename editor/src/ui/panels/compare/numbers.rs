@@ -11,19 +11,42 @@ use crate::ui::workbench::comparing::{Cost, Costs};
 /// The width at which what it costs and how far the pictures are apart stand beside each other.
 const BESIDE: f32 = 470.0;
 
+/// Frames that the button adds to the medians.
+const MORE: u32 = 20;
+
 /// Draws the numbers.
-pub fn show(editor: &Editor, ui: &mut Ui) {
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &editor.workbench;
+    let sides = workbench.costs();
     if ui.available_width() < BESIDE {
         pictures(workbench, ui);
         ui.add_space(4.0);
-        costs(workbench, ui);
-        return;
+        costs(workbench, &sides, ui);
+    } else {
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| costs(workbench, &sides, ui));
+            ui.add_space(6.0);
+            ui.vertical(|ui| pictures(workbench, ui));
+        });
     }
-    ui.horizontal_top(|ui| {
-        ui.vertical(|ui| costs(workbench, ui));
-        ui.add_space(10.0);
-        ui.vertical(|ui| pictures(workbench, ui));
+    for (name, side) in ["A", "B"].into_iter().zip(&sides) {
+        for (what, value) in side.iter().flat_map(|side| &side.counters) {
+            let text = format!("{name}: {what}: {}", count(u64::from(*value)));
+            ui.label(RichText::new(text).small());
+        }
+    }
+    ui.horizontal_wrapped(|ui| {
+        let about = "Draws the same moment so many times more, in turn, for medians of more frames";
+        let title = format!("Draw {MORE} more");
+        if ui.small_button(title).on_hover_text(about).clicked() {
+            editor.workbench.draw_more(MORE);
+        }
+        let text = if editor.workbench.gpu().summary.software {
+            "Drawn in turn by the processor: for times to rely on, write a report."
+        } else {
+            "Drawn in turn: for times to rely on, write a report."
+        };
+        ui.label(RichText::new(text).small().weak());
     });
 }
 
@@ -93,8 +116,7 @@ fn pictures(workbench: &Workbench, ui: &mut Ui) {
 }
 
 /// What the frames of both cost.
-fn costs(workbench: &Workbench, ui: &mut Ui) {
-    let sides = workbench.costs();
+fn costs(workbench: &Workbench, sides: &[Option<Costs>; 2], ui: &mut Ui) {
     let cell = |of: &dyn Fn(&Costs) -> String, side: &Option<Costs>| {
         side.as_ref().map_or_else(|| MISSING.to_owned(), of)
     };
@@ -142,30 +164,17 @@ fn costs(workbench: &Workbench, ui: &mut Ui) {
         .striped(true)
         .show(ui, |ui| {
             ui.label("");
-            for (name, side) in ["A", "B"].into_iter().zip(&sides) {
+            for (name, side) in ["A", "B"].into_iter().zip(sides) {
                 let title = cell(&|c| c.title.clone(), side);
                 ui.label(RichText::new(name).strong()).on_hover_text(title);
             }
             ui.end_row();
             for (what, of, about) in rows {
                 ui.label(what).on_hover_text(about);
-                for side in &sides {
+                for side in sides {
                     ui.label(RichText::new(cell(of, side)).monospace());
                 }
                 ui.end_row();
             }
         });
-    for (name, side) in ["A", "B"].into_iter().zip(&sides) {
-        for (what, value) in side.iter().flat_map(|side| &side.counters) {
-            ui.label(
-                RichText::new(format!("{name}: {what}: {}", count(u64::from(*value)))).small(),
-            );
-        }
-    }
-    let software = workbench.gpu().summary.software;
-    if software {
-        let text =
-            "Both sides are drawn in turn by the processor: for times to rely on, write a report.";
-        ui.label(RichText::new(text).small().weak());
-    }
 }

@@ -123,6 +123,10 @@ impl Workbench {
             }
         };
         self.renderer.inspector().attend(Attention::Whole);
+        if comparing.more > 0 {
+            comparing.more -= 1;
+            self.canvas.repeat();
+        }
         self.renderer.set_frame_index(index.wrapping_add(1));
         if let Some(error) = failed {
             self.device_failed(error);

@@ -133,6 +133,8 @@ pub struct Comparing {
     pairs: u64,
     /// The moment that A has drawn and B has not.
     waiting: Option<Waiting>,
+    /// Pairs of the same moment that are to be drawn yet.
+    more: u32,
     /// Whether both pictures of the last pair show the same moment.
     is_whole: bool,
     /// The frames of B that were submitted and not yet measured.
@@ -179,6 +181,7 @@ impl Default for Comparing {
             judge: Judge::default(),
             pairs: 0,
             waiting: None,
+            more: 0,
             is_whole: false,
             frames: VecDeque::new(),
             problem: None,
@@ -294,6 +297,7 @@ impl Workbench {
         comparing.shown = None;
         comparing.made_from = None;
         comparing.waiting = None;
+        comparing.more = 0;
         comparing.judge.give_up();
         comparing.frames.clear();
     }
@@ -336,6 +340,14 @@ impl Workbench {
                 Some(value) => side.pipelines.set(parameter, value),
                 None => side.pipelines.unset(parameter),
             }
+        }
+    }
+
+    /// Draws the same moment so many times more, for medians of more frames.
+    pub fn draw_more(&mut self, pairs: u32) {
+        if self.comparing.is_on {
+            self.comparing.more = pairs;
+            self.canvas.repeat();
         }
     }
 
