@@ -327,3 +327,56 @@ fn a_mistake_in_one_point_keeps_the_others() {
     });
     assert_eq!(json.count(), 1);
 }
+
+/// Of two views, only the pipeline and its values may differ.
+#[test]
+fn views_are_measured_on_what_they_show() {
+    let project = Project::new();
+    let view = |pipeline: &str, more: &str| {
+        format!(
+            "lightbench-view-1 scene=tiny scene.light=8 pipeline={pipeline} camera=free \
+             camera.eye=1,2.5,4 camera.turn=0.3,-0.4 camera.orbit=4 camera.lens=1,0.1,inf \
+             time=0.5 size=48x27{more}"
+        )
+    };
+    let (first, second) = (
+        view("deferred_shading", ""),
+        view("deferred_shading pipeline.exposure=1", ""),
+    );
+    let few = ["--frames", "1", "--warmup", "0", "--processes", "1"];
+    let arguments = ["compare", "--view", &first, "--view", &second, "--out", "r"];
+    project.run(&[&arguments[..], &few].concat()).succeeded();
+    let report = json(&project.file("r/report.json"));
+    let comparison = &report["points"][0]["comparison"];
+    let pipelines = comparison["pipelines"].as_array().unwrap();
+    let names: Vec<&str> = pipelines
+        .iter()
+        .map(|p| p["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["deferred_shading", "deferred_shading exposure=1"]);
+    assert_eq!(comparison["reference"], "deferred_shading");
+    assert!(pipelines[1]["difference"]["flip"]["mean"].as_f64().unwrap() > 0.01);
+
+    // The picture is that of `render`, but for the last bits of the camera.
+    let drawn = ["render", "--view", &first, "--out", "view.png"];
+    project.run(&drawn).succeeded();
+    let file = pipelines[0]["picture_file"].as_str().unwrap();
+    let open = |path: &str| image::open(project.file(path)).unwrap().into_rgb8();
+    let (reported, rendered) = (open(&format!("r/{file}")), open("view.png"));
+    let pairs = reported.pixels().zip(rendered.pixels());
+    let differ = pairs.filter(|(a, b)| a != b).count();
+    assert!(differ <= 48 * 27 / 100, "{differ} pixels differ");
+    let own = ["render", "tiny", "--set", "light=8", "--size", "48x27"];
+    project
+        .run(&[&own[..], &["--out", "own.png"]].concat())
+        .succeeded();
+    assert_ne!(open("own.png"), rendered, "the camera is the view's");
+
+    let other = view("forward_single_pass", "").replace("time=0.5", "time=0.6");
+    let arguments = ["compare", "--view", &first, "--view", &other, "--out", "s"];
+    project
+        .run(&arguments)
+        .failed(2, &["view 2", "in its time"]);
+    let arguments = ["compare", "tiny", "--view", &first, "--out", "s"];
+    project.run(&arguments).failed(2, &["--view"]);
+}

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
+use lightbench_editor::ui::actions::Action;
 use lightbench_editor::ui::code::document::Outside;
 use lightbench_editor::ui::layout::Panel;
 
@@ -114,10 +115,11 @@ fn a_wrong_line_shows_its_mistake_at_the_line_and_clicks_lead_there() {
     assert_eq!(places(&bench).len(), 3);
     for at in places(&bench) {
         bench.key(CTRL, Key::Home);
-        assert_eq!(bench.count("line 1, column 1"), 1);
+        assert_eq!(bench.count("line 1, column 1"), 1, "before {at}");
         bench.click_at(at);
         bench.harness.run_steps(3);
-        assert_eq!(bench.count(&format!("line {line}, column ")), 1);
+        let column = format!("line {line}, column ");
+        assert_eq!(bench.count(&column), 1, "after {at}");
     }
 
     // The caret is at the mistake: there the missing value is typed.
@@ -141,13 +143,47 @@ fn a_mistake_in_a_shader_opens_the_shader() {
     bench.until("the mistake", |editor| Bench::has_problems(editor));
     bench.harness.run_steps(2);
     let place = format!("{SHADER}:{line}");
-    let all = bench.harness.query_all_by_label_contains(&place);
-    let first = all.map(|node| node.rect().center()).next().unwrap();
-    bench.click_at(first);
-    bench.harness.run_steps(3);
-    assert_eq!(bench.harness.state().code.shown().unwrap().path, SHADER);
-    assert_eq!(bench.count(&format!("line {line}: ")), 1);
-    assert_eq!(bench.count(&format!("line {line}, column ")), 1);
+    // From each of the three places, also while the panel is hidden.
+    for nth in 0..3 {
+        let mut all = bench.harness.query_all_by_label_contains(&place);
+        let at = all.nth(nth).unwrap().rect().center();
+        drop(all);
+        bench.click_at(at);
+        bench.harness.run_steps(3);
+        assert_eq!(bench.harness.state().code.shown().unwrap().path, SHADER);
+        assert_eq!(bench.count(&format!("line {line}: ")), 1, "at {at}");
+        assert_eq!(bench.count(&format!("line {line}, column ")), 1, "at {at}");
+        let ctx = bench.harness.ctx.clone();
+        let editor = bench.harness.state_mut();
+        editor.perform(Action::Toggle(Panel::Code), &ctx);
+        bench.harness.run_steps(3);
+        assert_eq!(bench.count(&format!("line {line}: ")), 0);
+    }
+}
+
+/// A scene outside the project is named by its path, and belongs to whoever opened it.
+#[test]
+fn a_script_outside_the_project_is_saved_where_it_is() {
+    let mut bench = Bench::open();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("outside.rhai");
+    let scene = "spawn(\"box\").mesh(box(1)); ambient_light(\"sky\");\n\
+                 camera(\"eye\").at(0, 1, 4).look_at(0, 0, 0);";
+    std::fs::write(&file, scene).unwrap();
+    bench.key(CTRL, Key::O);
+    bench.type_text(file.to_str().unwrap());
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.until("the scene", |editor| {
+        editor.workbench.scenes.shown() == Some("@0/outside.rhai")
+    });
+    let first = bench.picture();
+    bench.key(CTRL, Key::E);
+    assert_eq!(text(&bench), scene);
+    to_the_end(&mut bench);
+    bench.type_text("\nspawn(\"more\").mesh(box(1)).at(1, 1, 0);");
+    save(&mut bench);
+    bench.until_picture_is_not(&first);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), text(&bench));
 }
 
 #[test]
@@ -175,7 +211,7 @@ fn a_change_outside_while_there_is_unsaved_text_is_a_choice() {
     assert_eq!(bench.count("+ // mine"), 1);
     bench.press("Take theirs");
     assert_eq!(text(&bench), theirs);
-    assert_eq!(bench.count("changed outside"), 0);
+    assert_eq!(bench.count("Nothing was overwritten"), 0);
 
     std::fs::write(&path, &good).unwrap();
     bench.until("the first text", |editor| {

@@ -36,6 +36,7 @@ fn shown(bench: &mut Bench) -> Vec<u8> {
         });
         ready
             && workbench.picture_is_current()
+            && !workbench.comparing.is_waiting()
             && !workbench.pipelines.is_busy()
             && workbench.comparing.pairs() > 0
     });
@@ -63,7 +64,8 @@ fn brighter(bench: &mut Bench) -> (Vec<u8>, Vec<u8>) {
     let workbench = &mut bench.harness.state_mut().workbench;
     workbench.set_other_parameter("exposure", Some(2.0.into()));
     bench.until("the brighter picture", |editor| {
-        editor.workbench.comparing.pairs() > before
+        let comparing = &editor.workbench.comparing;
+        comparing.pairs() > before && !comparing.is_waiting()
     });
     (first, second)
 }
@@ -261,4 +263,38 @@ fn swapping_keeps_both_and_ending_gives_everything_back() {
     let side = workbench.comparing.side().unwrap();
     let slot = side.pipelines.slot("deferred_shading").unwrap();
     assert!(slot.pipeline.as_ref().unwrap().targets().is_none());
+}
+
+#[test]
+fn what_is_looked_into_is_the_first_side() {
+    let mut bench = Bench::open();
+    let (first, _) = brighter(&mut bench);
+    bench.choose("Target", "output");
+    bench.until("the target", |editor| {
+        editor.workbench.inspected().is_some() && !editor.workbench.comparing.is_waiting()
+    });
+    bench.harness.run_steps(3);
+    bench.picture();
+    let workbench = &mut bench.harness.state_mut().workbench;
+    let texture = workbench.inspected().unwrap();
+    let bytes = read_bytes(workbench.gpu(), &texture).unwrap();
+    assert!(bytes == first, "the target is that of A");
+    // So is a pixel, also where B is shown: the last value is what A has there.
+    let viewport = bench.harness.get_by_role_and_label(Role::Image, "Viewport");
+    let at = viewport.rect().center() + egui::vec2(80.0, 40.0);
+    bench.click_at(at);
+    bench.until("the values", |editor| {
+        !editor.workbench.probing.is_waiting() && !editor.workbench.probing.values.is_empty()
+    });
+    let probing = bench.harness.state().workbench.probing.clone();
+    let (x, y) = probing.pixel.unwrap();
+    let texel = &first[(y as usize * columns(&bench) + x as usize) * 4..][..3];
+    let said = probing.values.last().unwrap().after.clone();
+    let said: Vec<f32> = said.split(' ').map(|word| word.parse().unwrap()).collect();
+    for (byte, value) in texel.iter().zip(&said) {
+        assert!(
+            (f32::from(*byte) - value * 255.0).abs() < 0.51,
+            "{texel:?} and {said:?}"
+        );
+    }
 }

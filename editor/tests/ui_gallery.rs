@@ -33,13 +33,10 @@ fn open_gallery(bench: &mut Bench) {
 
 /// Clicks what lies in the window of the gallery.
 fn press_in_gallery(bench: &mut Bench, label: &str) {
-    let role = |node: &egui_kittest::Node| node.role();
-    let all = bench.harness.query_all_by_label(label);
-    let node = all
-        .filter(|node| role(node) == Role::Button)
-        .last()
-        .unwrap();
-    node.click();
+    let all = bench
+        .harness
+        .query_all_by_role_and_label(Role::Button, label);
+    all.last().unwrap().click();
     bench.harness.run_steps(3);
 }
 

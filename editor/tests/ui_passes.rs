@@ -46,6 +46,7 @@ fn stopped_bytes(bench: &mut Bench) -> Vec<u8> {
 fn the_graph_shows_what_is_clicked_in_targets() {
     let mut bench = Bench::open();
     click(&mut bench, "Graph");
+    click(&mut bench, "Fit");
     let desc = {
         let workbench = &mut bench.harness.state_mut().workbench;
         workbench.pipelines.shown_pipeline().unwrap().desc.clone()

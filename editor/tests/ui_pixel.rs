@@ -13,8 +13,8 @@ use lightbench_editor::ui::workbench::lighting::Lit;
 
 use ui_support::Bench;
 
-/// On the floor of the box, and on the short block.
-const PLACES: [Pos2; 2] = [Pos2::new(300.0, 350.0), Pos2::new(390.0, 420.0)];
+/// On a wall of the box, and on its floor.
+const PLACES: [Pos2; 2] = [Pos2::new(300.0, 350.0), Pos2::new(490.0, 540.0)];
 
 fn probe(bench: &mut Bench, at: Pos2) -> Results {
     bench.click_at(at);
@@ -73,7 +73,7 @@ fn the_lamps_of_a_pixel_add_up_to_what_the_pipeline_draws() {
     let strongest = before
         .lamps
         .iter()
-        .find(|lamp| lamp.kind == "point")
+        .find(|lamp| lamp.kind != "ambient")
         .unwrap()
         .clone();
     let workbench = &mut bench.harness.state_mut().workbench;

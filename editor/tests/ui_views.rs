@@ -41,30 +41,16 @@ fn press(bench: &mut Bench, modifiers: Modifiers, key: Key) {
 }
 
 fn click(bench: &mut Bench, label: &str) {
-    bench
-        .harness
-        .get_by_role_and_label(Role::Button, label)
-        .click();
+    // By the reader of the screen: it may be below what is seen of its panel.
+    let button = bench.harness.get_by_role_and_label(Role::Button, label);
+    button.click_accesskit();
     bench.harness.run_steps(2);
 }
 
-/// Presses the key of Copy view and gives what it copies.
+/// What the button of the panel copies.
 fn copied_view(bench: &mut Bench) -> String {
-    bench
-        .harness
-        .key_press_modifiers(Modifiers::COMMAND, Key::L);
-    for _ in 0..3 {
-        bench.harness.step();
-        let commands = &bench.harness.output().platform_output.commands;
-        let text = commands.iter().find_map(|command| match command {
-            egui::OutputCommand::CopyText(text) => Some(text.clone()),
-            _ => None,
-        });
-        if let Some(text) = text {
-            return text;
-        }
-    }
-    panic!("nothing was copied");
+    bench.show(Panel::Compare);
+    bench.copied_by("Copy view")
 }
 
 /// Runs the program in the project.
@@ -262,6 +248,7 @@ fn compare(bench: &mut Bench) {
         !side.pipelines.is_busy()
             && !side.pipelines.is_warming()
             && workbench.picture_is_current()
+            && !workbench.comparing.is_waiting()
             && judged.is_some_and(|judged| judged.frames_ago == 0)
     });
 }

@@ -41,14 +41,22 @@ fn main() -> io::Result<()> {
     fs::write(variable("OUT_DIR")?.join("shipped.rs"), table)
 }
 
+/// What a student's program must not hold: the answers of lessons, and the checks
+/// that only a lecturer has.
+const KEPT_BACK: [&str; 2] = ["solution", "hidden"];
+
 /// Adds every file below `folder` as a path relative to `root`, with forward
-/// slashes. Hidden files and the left-overs of editors are not shipped.
+/// slashes. Hidden files and the left-overs of editors are not shipped, and
+/// neither is what lessons keep back.
 fn collect(root: &Path, folder: &str, files: &mut Vec<String>) -> io::Result<()> {
     for entry in fs::read_dir(root.join(folder))? {
         let entry = entry?;
         let name = entry.file_name();
         let name = name.to_str().ok_or_else(|| not_unicode(&entry.path()))?;
         if name.starts_with('.') || name.ends_with('~') || name.ends_with(".tmp") {
+            continue;
+        }
+        if folder.starts_with("lessons/") && KEPT_BACK.contains(&name) {
             continue;
         }
         let path = format!("{folder}/{name}");

@@ -23,6 +23,8 @@ enum Page {
     Shaders,
     /// What experiments can call, to draw frames and look into them
     Experiments,
+    /// What the checks of lessons can call, to judge what was handed in
+    Checks,
     /// Definition files (.d.rhai) of all kinds of scripts, for text editors that know Rhai
     Definitions,
 }
@@ -60,6 +62,7 @@ pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
         Page::Abilities => reference::abilities(files)?,
         Page::Shaders => reference::shaders(files)?,
         Page::Experiments => reference::experiments(),
+        Page::Checks => reference::checks(),
         Page::Definitions => String::new(),
     };
     match &arguments.out {

@@ -14,6 +14,7 @@ mod edit;
 mod export;
 mod faults;
 mod inspect;
+mod lesson;
 mod list;
 mod load;
 mod new;
@@ -90,6 +91,12 @@ enum Command {
     /// Measures for `compare`, which starts it
     #[command(hide = true)]
     StudyWorker(study::worker::Arguments),
+    /// Lists lessons, begins one, or packs one for students
+    Lesson(lesson::Arguments),
+    /// Checks what a student made of a lesson, and says what is right and what is not
+    Check(lesson::check::Arguments),
+    /// Checks a lesson's work, shows the points, and writes one archive to hand in
+    HandIn(lesson::hand_in::Arguments),
     /// Says how far apart two pictures are
     Diff(diff::Arguments),
     /// Writes a scene to a file that holds its entities instead of a script
@@ -162,6 +169,9 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Bundle(arguments) => study::bundle::bundle(&arguments, files()?),
         Command::Reproduce(arguments) => study::bundle::reproduce(&arguments, limits),
         Command::StudyWorker(arguments) => study::worker::run(&arguments, files()?),
+        Command::Lesson(arguments) => lesson::run(&arguments, &files()?),
+        Command::Check(arguments) => lesson::check::run(&arguments, &files()?),
+        Command::HandIn(arguments) => lesson::hand_in::run(&arguments, &files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),
         Command::Export(arguments) => export::run(&arguments, files()?),

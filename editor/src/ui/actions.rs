@@ -1,6 +1,7 @@
 //! Everything that menus and keys do, in one table.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
+use lightbench::script::overlays::NewKind;
 
 use super::compare_actions::{self, CompareAction};
 use super::editor::Editor;
@@ -45,6 +46,22 @@ pub enum Action {
     LocalAxes,
     /// Choose no entity.
     SelectNone,
+    /// Make an entity.
+    Create(NewKind),
+    /// Make copies of what is chosen.
+    Duplicate,
+    /// Remove what is chosen.
+    Delete,
+    /// Call what is chosen otherwise.
+    Rename,
+    /// Hang what is chosen below nothing.
+    Detach,
+    /// Hide what is chosen, or show it.
+    Hide,
+    /// Lock what is chosen, or unlock it.
+    Lock,
+    /// Write the scene to a file.
+    SaveScene,
     /// Back to the scene's camera.
     ResetCamera,
     /// The picture as it is after the next pass of the frame.
@@ -71,14 +88,12 @@ pub enum Action {
     EditScene,
     /// Open the file of the pipeline.
     EditPipeline,
-    /// Save the file that is shown.
-    SaveFile,
+    /// Save the file in Code if it has unsaved text, else the scene.
+    Save,
     /// Go on with another project.
     OpenProject,
     /// Open a scene, a pipeline or a model.
     OpenScene,
-    /// Write the scene to a file.
-    SaveSceneAs,
     /// Show scenes, pipelines and examples.
     Gallery,
     /// Say what to try first.
@@ -130,7 +145,7 @@ pub(super) const fn entry(
 }
 
 /// The menus, in their order, each with its groups of actions.
-pub const MENUS: [(&str, &[&[Entry]]); 7] = [
+pub const MENUS: [(&str, &[&[Entry]]); 8] = [
     (
         "File",
         &[
@@ -143,7 +158,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
                 entry(Action::OpenProject, "Open a project", None),
                 // Before the key without Shift, which fits both.
                 entry(
-                    Action::SaveSceneAs,
+                    Action::SaveScene,
                     "Save the scene as",
                     Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::S)),
                 ),
@@ -156,7 +171,7 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
                     command(Key::E),
                 ),
                 entry(Action::EditPipeline, "Edit the pipeline's file", None),
-                entry(Action::SaveFile, "Save the file", command(Key::S)),
+                entry(Action::Save, "Save", command(Key::S)),
             ],
             &[entry(Action::Quit, "Quit", command(Key::Q))],
         ],
@@ -184,6 +199,46 @@ pub const MENUS: [(&str, &[&[Entry]]); 7] = [
                 "Choose nothing",
                 key(Key::Escape),
             )],
+        ],
+    ),
+    (
+        "Entity",
+        &[
+            &[
+                entry(Action::Create(NewKind::Empty), "Create empty", None),
+                entry(Action::Create(NewKind::Box), "Create box", None),
+                entry(Action::Create(NewKind::Sphere), "Create sphere", None),
+                entry(Action::Create(NewKind::Cylinder), "Create cylinder", None),
+                entry(Action::Create(NewKind::Cone), "Create cone", None),
+                entry(Action::Create(NewKind::Torus), "Create torus", None),
+                entry(Action::Create(NewKind::Plane), "Create plane", None),
+            ],
+            &[
+                entry(
+                    Action::Create(NewKind::PointLight),
+                    "Create point light",
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::SpotLight),
+                    "Create spot light",
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::DirectionalLight),
+                    "Create directional light",
+                    None,
+                ),
+                entry(Action::Create(NewKind::Camera), "Create camera", None),
+            ],
+            &[
+                entry(Action::Duplicate, "Duplicate", command(Key::D)),
+                entry(Action::Delete, "Delete", key(Key::Delete)),
+                entry(Action::Rename, "Rename", key(Key::F2)),
+                entry(Action::Detach, "Put below nothing", None),
+                entry(Action::Hide, "Hide or show", key(Key::H)),
+                entry(Action::Lock, "Lock or unlock", None),
+            ],
         ],
     ),
     (
@@ -362,7 +417,7 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         // Keys are for its amount.
         return;
     }
-    if editor.palette.is_some() || editor.has_question() {
+    if editor.palette.is_some() || editor.saving.is_some() || editor.has_question() {
         return;
     }
     // Escape closes a menu or leaves a field first.

@@ -5,13 +5,14 @@ use std::time::Instant;
 
 use lightbench::assets::files::create_project;
 use lightbench::render::Place;
-use lightbench::script::{PIPELINES, SCENE_EXTENSION, SCENES};
+use lightbench::script::{PIPELINES, SCENES};
 
-use super::code::document::SaveError;
+use super::code::document::{Document, SaveError};
 use super::code::{Leaving, Spot};
 use super::dialogs::Question;
 use super::editor::Editor;
 use super::layout::Panel;
+use super::panels::saving::Saving;
 
 /// The file of a scene or a pipeline that is known by its name.
 fn file_of(folder: &str, name: &str) -> String {
@@ -32,10 +33,10 @@ impl Editor {
     pub fn open_code(&mut self, path: &str, spot: Option<Spot>) {
         if let Err(error) = self.code.open(self.workbench.files(), path, spot) {
             self.workbench.log.error(error.to_string());
-            self.show(Panel::Log);
+            self.reveal(Panel::Log);
             return;
         }
-        self.show(Panel::Code);
+        self.reveal(Panel::Code);
         self.code_panel.focus();
     }
 
@@ -59,6 +60,15 @@ impl Editor {
     pub(super) fn edit_pipeline(&mut self) {
         let path = file_of(PIPELINES, self.workbench.pipelines.selected());
         self.open_code(&path, None);
+    }
+
+    /// Saves the file that is shown, if it has unsaved text; else asks where to save the scene.
+    pub(super) fn save(&mut self) {
+        if self.code.shown().is_some_and(Document::is_unsaved) {
+            self.save_shown_file();
+        } else {
+            self.saving = Some(Saving::new(&self.workbench));
+        }
     }
 
     /// Saves the file that is shown.
@@ -134,7 +144,7 @@ impl Editor {
             }
             Err(error) => {
                 self.workbench.log.error(error.to_string());
-                self.show(Panel::Log);
+                self.reveal(Panel::Log);
                 false
             }
         }
@@ -145,7 +155,7 @@ impl Editor {
         let mut files = self.workbench.files().clone();
         self.code.restore(&mut files, index);
         self.workbench.use_files(files);
-        self.show(Panel::Code);
+        self.reveal(Panel::Code);
         self.code_panel.focus();
     }
 
@@ -204,7 +214,7 @@ impl Editor {
             }
             Question::Project => self.try_to_open_project(&path),
             Question::Scene => self.try_to_open_file(&path),
-            Question::SaveScene => self.save_scene(&path),
+            Question::SaveScene => self.save_scene_to(&path),
         };
         if let Err(why) = done {
             self.dialogs.refuse(question, &path, why);
@@ -244,27 +254,8 @@ impl Editor {
             .tend(&workbench.library, files, gpu, workbench.wake());
     }
 
-    fn save_scene(&mut self, path: &Path) -> Result<(), String> {
-        let is_scene = path.extension().is_some_and(|end| end == SCENE_EXTENSION);
-        let path = if is_scene {
-            path.to_owned()
-        } else {
-            let mut name = path.as_os_str().to_owned();
-            name.push(".");
-            name.push(SCENE_EXTENSION);
-            name.into()
-        };
-        let scene = self.workbench.scenes.scene_mut();
-        let scene = scene.ok_or("No scene is loaded yet.")?;
-        scene.save(&path).map_err(|problem| problem.message)?;
-        let only = scene.has_update();
-        let text = format!("The scene is saved in {}.", path.display());
-        self.workbench.log.info(text);
-        if only {
-            let text = "The script's `update` is not part of the file: what only it moves will \
-                        stand still.";
-            self.workbench.log.warn(text);
-        }
-        Ok(())
+    fn save_scene_to(&mut self, path: &Path) -> Result<(), String> {
+        let saved = self.workbench.save_scene(&path.to_string_lossy());
+        saved.map(|_| ())
     }
 }

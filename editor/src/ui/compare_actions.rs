@@ -70,10 +70,18 @@ pub const MENU: &[&[Entry]] = &[
         compare(CompareAction::Like, "Give B what A has", None),
     ],
     &[
-        compare(CompareAction::Show(Mode::Split), "Split", None),
-        compare(CompareAction::Show(Mode::Flicker), "Flicker", None),
-        compare(CompareAction::Show(Mode::Difference), "Difference", None),
-        compare(CompareAction::Show(Mode::Flip), "FLIP", None),
+        compare(CompareAction::Show(Mode::Split), "Compare by a split", None),
+        compare(
+            CompareAction::Show(Mode::Flicker),
+            "Compare by flicker",
+            None,
+        ),
+        compare(
+            CompareAction::Show(Mode::Difference),
+            "Compare by difference",
+            None,
+        ),
+        compare(CompareAction::Show(Mode::Flip), "Compare by FLIP", None),
     ],
     &[
         compare(CompareAction::Other, "Show the other picture", key(Key::B)),

@@ -1,7 +1,6 @@
 //! Asking for a file or a folder: by the system's own dialog, or by its path where there is none.
 
 use std::env;
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -73,17 +72,6 @@ pub struct Dialogs {
     typed: Option<Typed>,
 }
 
-impl fmt::Debug for Dialogs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let open = self.open.as_ref().map(|open| open.question);
-        write!(
-            f,
-            "{open:?} {:?}",
-            self.typed.as_ref().map(|typed| typed.question)
-        )
-    }
-}
-
 impl Default for Dialogs {
     fn default() -> Self {
         Self {
@@ -104,12 +92,12 @@ impl Wake for Repaint {
 }
 
 impl Dialogs {
-    /// Asks. One question is asked at a time.
+    /// Asks. Who asks again while a dialog should be open does not see it: a path is asked for.
     pub fn ask(&mut self, question: Question, begin_at: Option<&Path>) {
-        if self.open.is_some() || self.typed.is_some() {
+        if self.typed.is_some() {
             return;
         }
-        if !self.native {
+        if self.open.take().is_some() || !self.native {
             self.ask_for_path(question, begin_at);
             return;
         }

@@ -54,12 +54,16 @@ pub struct Editor {
     pub(super) paste: Option<PasteWindow>,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
+    /// The window that saves the scene, while it is open.
+    pub(super) saving: Option<panels::saving::Saving>,
     /// What is drawn over the picture.
     pub(super) marks: Marks,
     /// What is kept over restarts.
     pub kept: Kept,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
+    /// A panel to show, also where somebody has hidden it, once all are drawn.
+    revealed: Option<Panel>,
     pub(super) hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
@@ -105,9 +109,11 @@ impl Editor {
             notebook: NotebookPanel::default(),
             paste: None,
             palette: None,
+            saving: None,
             marks: Marks::default(),
             kept,
             bring: None,
+            revealed: None,
             hint: true,
             help: false,
             about: false,
@@ -124,6 +130,11 @@ impl Editor {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
         self.workbench.move_to(gpu);
+    }
+
+    /// The same, from within a panel: the layout is at work until all are drawn.
+    pub(super) fn reveal(&mut self, panel: Panel) {
+        self.revealed = Some(panel);
     }
 
     /// Brings a panel before those that share its place.
@@ -171,6 +182,11 @@ impl Editor {
         panels::view_text::show(self, &ctx);
         panels::code::leaving::show(self, &ctx);
         self.follow_dialogs(&ctx);
+        panels::saving::show(self, &ctx);
+        if let Some(panel) = self.revealed.take() {
+            self.show(panel);
+            ctx.request_repaint();
+        }
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
@@ -212,6 +228,14 @@ impl Editor {
             Action::PassAfter => workbench.stop_by(1),
             Action::PassBefore => workbench.stop_by(-1),
             Action::WholeFrame => workbench.stop_after(None),
+            Action::Create(_)
+            | Action::Duplicate
+            | Action::Delete
+            | Action::Rename
+            | Action::Detach
+            | Action::Hide
+            | Action::Lock => panels::entities::perform(self, action),
+            Action::SaveScene => self.saving = Some(panels::saving::Saving::new(workbench)),
             Action::NextPipeline => self.select_beside(1),
             Action::PreviousPipeline => self.select_beside(-1),
             Action::Reload => workbench.reload(),
@@ -233,10 +257,9 @@ impl Editor {
             Action::About => self.about = true,
             Action::EditScene => self.edit_scene(),
             Action::EditPipeline => self.edit_pipeline(),
-            Action::SaveFile => self.save_shown_file(),
+            Action::Save => self.save(),
             Action::OpenProject => self.ask_for(Question::Project),
             Action::OpenScene => self.ask_for(Question::Scene),
-            Action::SaveSceneAs => self.ask_for(Question::SaveScene),
             Action::Gallery => {
                 let (files, wake) = (
                     self.workbench.files().clone(),
@@ -360,6 +383,9 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
     }
 
     fn tab_title_for_pane(&mut self, panel: &Panel) -> egui::WidgetText {
+        if *panel == Panel::Code && self.editor.code.unsaved().next().is_some() {
+            return format!("{} •", panel.title()).into();
+        }
         panel.title().into()
     }
 

@@ -4,6 +4,7 @@ mod measuring;
 mod studying;
 
 use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::Progress;
 use lightbench_assets::cache::Cache;
@@ -43,7 +44,10 @@ pub struct Workbench {
     gpu: GpuOptions,
     progress: Progress,
     tell: Box<dyn Fn(Remark) + Send>,
-    device: Option<Device>,
+    /// Opened with the first frame; shared by the workbenches that stand beside each other.
+    device: Arc<Mutex<Option<Renderer>>>,
+    /// Of the own files: a compiler knows shaders by their paths.
+    compiler: Option<Compiler>,
     /// The one that was used last stands last.
     scenes: Vec<Staged>,
     /// The one that was used last stands last.
@@ -56,11 +60,6 @@ pub struct Workbench {
 
 /// Says how a process is started that measures into a folder.
 type LaunchFor = Box<dyn Fn(&Path) -> Launch + Send>;
-
-struct Device {
-    renderer: Renderer,
-    compiler: Compiler,
-}
 
 /// A scene at a moment.
 struct Staged {
@@ -90,7 +89,8 @@ impl Workbench {
             gpu,
             progress: progress.clone(),
             tell: Box::new(tell),
-            device: None,
+            device: Arc::default(),
+            compiler: None,
             scenes: Vec::new(),
             pipelines: Vec::new(),
             cache: Cache::default(),
@@ -107,6 +107,23 @@ impl Workbench {
         self
     }
 
+    /// Another workbench over other files, which draws on the same device.
+    #[must_use]
+    pub fn beside(&self, files: &Files, tell: impl Fn(Remark) + Send + 'static) -> Self {
+        Self {
+            device: Arc::clone(&self.device),
+            ..Self::new(files, self.gpu.clone(), &self.progress, tell)
+        }
+    }
+
+    /// Opens the device, if it is not open yet.
+    ///
+    /// # Errors
+    /// No adapter that can draw.
+    pub fn open_device(&mut self) -> Result<(), LaboratoryError> {
+        self.open()
+    }
+
     /// Looks into a frame as if it were the first that is ever drawn.
     fn look<T>(
         &mut self,
@@ -116,8 +133,10 @@ impl Workbench {
         self.open()?;
         self.bring_scene(shot)?;
         self.bring_pipeline(shot)?;
-        let (Some(device), Some(staged), Some(compiled)) = (
-            &mut self.device,
+        let device = Arc::clone(&self.device);
+        let mut device = lock(&device);
+        let (Some(renderer), Some(staged), Some(compiled)) = (
+            device.as_mut(),
             self.scenes.last_mut(),
             self.pipelines.last_mut(),
         ) else {
@@ -127,9 +146,9 @@ impl Workbench {
         };
         // Nothing of another frame may show in this one. A new inspector gives the pipeline new
         // targets and buffers, so history begins afresh too.
-        device.renderer.reset_scene();
+        renderer.reset_scene();
         let mut inspector = FrameInspector::new(
-            &mut device.renderer,
+            renderer,
             &self.files,
             &mut staged.scene,
             &mut compiled.pipeline,
@@ -138,26 +157,27 @@ impl Workbench {
         );
         let found = look(&mut inspector);
         drop(inspector);
-        self.tell_warnings();
+        let warnings = renderer.take_warnings();
+        self.tell_warnings(warnings);
         Ok(found?)
     }
 
     /// Opens the device, the first time.
     fn open(&mut self) -> Result<(), LaboratoryError> {
-        if self.device.is_none() {
-            let gpu = Gpu::open(&self.gpu).map_err(RenderError::from)?;
-            let renderer = Renderer::new(gpu);
-            let compiler = renderer.compiler();
-            self.device = Some(Device { renderer, compiler });
+        let mut device = lock(&self.device);
+        let renderer = match device.take() {
+            Some(renderer) => renderer,
+            None => Renderer::new(Gpu::open(&self.gpu).map_err(RenderError::from)?),
+        };
+        let renderer = device.insert(renderer);
+        if self.compiler.is_none() {
+            self.compiler = Some(renderer.compiler());
         }
         Ok(())
     }
 
-    fn tell_warnings(&mut self) {
-        let Some(device) = &mut self.device else {
-            return;
-        };
-        for warning in device.renderer.take_warnings() {
+    fn tell_warnings(&mut self, warnings: Vec<String>) {
+        for warning in warnings {
             // Each look begins anew, and would warn anew.
             if !self.warned.contains(&warning) {
                 self.warned.push(warning.clone());
@@ -246,15 +266,20 @@ impl Workbench {
             compiled.settings = shot.pipeline_settings.clone();
             return Ok(compiled);
         }
-        let Some(device) = &mut self.device else {
+        let Some(compiler) = &mut self.compiler else {
             return Err(LaboratoryError::Other("no device is open".to_owned()));
         };
         Ok(Compiled {
             name: shot.pipeline.clone(),
             settings: shot.pipeline_settings.clone(),
-            pipeline: device.compiler.compile(&self.files, &desc)?,
+            pipeline: compiler.compile(&self.files, &desc)?,
         })
     }
+}
+
+/// A workbench that failed in the middle of a frame left nothing behind that the next one uses.
+fn lock(device: &Mutex<Option<Renderer>>) -> MutexGuard<'_, Option<Renderer>> {
+    device.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Laboratory for Workbench {

@@ -16,7 +16,7 @@
 //!
 //! - [`capture`] takes a picture of a scene, [`inspect`] looks into its frame pass by pass,
 //!   [`experiment`] does both for scripts, [`measure`] times pipelines on it, [`curves`] does so for
-//!   values of a parameter. They need a GPU; the rest doesn't.
+//!   values of a parameter; [`lesson`] checks what students hand in. They need a GPU; the rest doesn't.
 //!
 //! ```
 //! use lightbench_lab::{LdrImage, diff};
@@ -40,6 +40,7 @@ pub mod experiment;
 pub mod files;
 pub mod heatmap;
 pub mod inspect;
+pub mod lesson;
 pub mod measure;
 pub mod metrics;
 pub mod mitsuba;

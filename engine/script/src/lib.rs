@@ -5,6 +5,8 @@
 //! - [`load_scene`] runs a file of `scripts/scenes/` into a [`Scene`], whose script may move it.
 //! - [`run_experiment`] runs a file of `scripts/experiments/`, which looks into frames through a
 //!   [`Laboratory`].
+//! - [`CheckScript`] has the checks of a lesson, which look into what a student handed in and tell an
+//!   [`Examiner`] what they found.
 //!
 //! Scripts are not trusted. They reach no file outside of the project, and [`Limits`] bound their
 //! time, their memory and the size of everything they make. Every mistake is a
@@ -48,8 +50,9 @@ mod syntax;
 mod testing;
 
 pub use experiment::{
-    Chart, ChartCurve, Cost, EXPERIMENTS, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask,
-    Task, TimeSpan, experiment_names, run_experiment,
+    Bound, Chart, ChartCurve, CheckFault, CheckScript, Cost, Data, EXPERIMENTS, Evidence, Examiner,
+    Expected, Given, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan,
+    check_names, experiment_names, run_experiment,
 };
 pub use limits::{GivenLimits, Limits};
 pub use lines::draw_line;

@@ -1,5 +1,6 @@
-//! `lightbench new`: a project, or a pipeline in one.
+//! `lightbench new`: a project, or a pipeline or a lesson in one.
 
+mod lesson;
 mod name;
 mod pipeline;
 
@@ -17,6 +18,7 @@ use super::report::{Usage, note, say};
     args_conflicts_with_subcommands = true,
     override_usage = "lightbench new project <DIR>\n       \
         lightbench new pipeline <NAME> [--project <DIR>]\n       \
+        lightbench new lesson <NAME> [--project <DIR>]\n       \
         lightbench new <DIR>",
     after_help = "\
 Examples:
@@ -27,7 +29,7 @@ Examples:
   lightbench edit --pipeline mine
 
 `lightbench new DIR` is short for `lightbench new project DIR`. A project in a folder whose name is
-`pipeline`, `project` or `help` needs the long form.
+`pipeline`, `lesson`, `project` or `help` needs the long form.
 
 A file of the project is used in place of the shipped one of the same path. Delete your copy to have
 the shipped file again. A new version of the program never changes a project."
@@ -65,19 +67,33 @@ folder belongs to, or in that of --project. Nothing that exists is changed.")]
         #[arg(value_name = "NAME")]
         name: String,
     },
+    /// Makes a lesson in the project: text, starter, checks and solution
+    #[command(after_help = "\
+Examples:
+  lightbench new lesson night
+  lightbench new lesson 20-night
+
+It makes lessons/NN-NAME in the project that the current folder belongs to, or in that of --project, with
+the next number unless the name begins with one. The lesson has one task, and its checks run.")]
+    Lesson {
+        /// Its name: letters, digits, `_` and `-`
+        #[arg(value_name = "NAME")]
+        name: String,
+    },
 }
 
-/// Makes a project or a pipeline.
+/// Makes a project, a pipeline or a lesson.
 ///
 /// # Errors
 /// A folder with something in it, a name that is taken or that can't be a file's, no project for a
-/// pipeline, or a place that can't be written.
+/// pipeline or a lesson, or a place that can't be written.
 pub fn run(
     arguments: &Arguments,
     files: impl FnOnce() -> anyhow::Result<Files>,
 ) -> anyhow::Result<()> {
     match (&arguments.what, &arguments.folder) {
         (Some(What::Pipeline { name }), _) => pipeline::make(name, &files()?),
+        (Some(What::Lesson { name }), _) => lesson::make(name, &files()?),
         (Some(What::Project { folder }), _) | (None, Some(folder)) => project(folder),
         (None, None) => Err(Usage("name the folder of the new project".to_owned()).into()),
     }
@@ -91,4 +107,12 @@ fn project(folder: &Path) -> anyhow::Result<()> {
         folder.display()
     ));
     Ok(())
+}
+
+/// `night_vision` as people write it: `Night vision`.
+fn title(name: &str) -> String {
+    let words = name.replace(['_', '-'], " ");
+    let mut letters = words.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters.clone()).collect()
 }

@@ -1,4 +1,4 @@
-//! What a pipeline may be called.
+//! What pipelines and lessons may be called.
 
 /// The longest name, in characters. With four bytes for each and an ending, a file's name stays
 /// below the 255 bytes that common file systems allow.
@@ -10,20 +10,23 @@ const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
 /// The same, with a digit behind.
 const NUMBERED_DEVICES: [&str; 2] = ["com", "lpt"];
 
-/// Whether a pipeline of that name can have files on every system, and can be named in a command:
+/// Whether something of that name, a pipeline or a lesson, can have files on every system, and can be named in a command:
 /// a dot, a comma or a slash would mean something there.
 ///
 /// # Errors
 /// What is wrong, with a name that would do.
-pub fn check(name: &str) -> Result<(), String> {
+pub fn check(name: &str, what: &str) -> Result<(), String> {
     let stem = name.strip_suffix(".rhai").unwrap_or(name);
     let reason = if stem != name {
-        "is the name of a file, not of a pipeline"
+        return Err(format!(
+            "`{name}` is the name of a file, not of a {what}{}",
+            way_out(stem)
+        ));
     } else if name.is_empty() {
         "is empty"
     } else if let Some(bad) = name.chars().find(|c| !allowed(*c)) {
         return Err(format!(
-            "`{}` can't be in a pipeline's name: letters, digits, `_` and `-` can{}",
+            "`{}` can't be in a {what}'s name: letters, digits, `_` and `-` can{}",
             bad.escape_debug(),
             way_out(stem)
         ));
@@ -31,7 +34,7 @@ pub fn check(name: &str) -> Result<(), String> {
         "does not begin with a letter or a digit"
     } else if name.chars().count() > LONGEST {
         return Err(format!(
-            "the name has {} characters; a pipeline's name has at most {LONGEST}",
+            "the name has {} characters; a {what}'s name has at most {LONGEST}",
             name.chars().count()
         ));
     } else if is_device(name) {
@@ -95,7 +98,7 @@ mod tests {
             "com10",
             "lpt1_b",
         ] {
-            assert_eq!(check(name), Ok(()), "{name}");
+            assert_eq!(check(name, "pipeline"), Ok(()), "{name}");
         }
     }
 
@@ -122,12 +125,12 @@ mod tests {
             ("iluminacio\u{301}n", "can't be in", "`iluminacio_n`"),
             ("***", "`*` can't", "`mine`"),
         ] {
-            let said = check(name).unwrap_err();
+            let said = check(name, "pipeline").unwrap_err();
             assert!(said.contains(part), "{name}: {said}");
             assert!(said.contains(&format!("try {better}")), "{name}: {said}");
         }
         let long = "x".repeat(51);
-        assert!(check(&long).unwrap_err().contains("at most 50"));
-        assert_eq!(check(&long[1..]), Ok(()));
+        assert!(check(&long, "pipeline").unwrap_err().contains("at most 50"));
+        assert_eq!(check(&long[1..], "pipeline"), Ok(()));
     }
 }

@@ -4,7 +4,7 @@ use anyhow::bail;
 use lightbench::assets::files::{FileError, Files, Origin, find_project};
 use lightbench::script::PIPELINES;
 
-use super::name;
+use super::{name, title};
 use crate::cli::report::{Usage, note, say};
 
 /// The files that are made. In both, `NAME` stands for the pipeline's name, and `TITLE` for the
@@ -17,7 +17,7 @@ const SHADER: &str = include_str!("template/shade.wgsl");
 /// # Errors
 /// No project, a name that is taken or can't be a file's, or a folder that can't be written.
 pub fn make(name: &str, files: &Files) -> anyhow::Result<()> {
-    name::check(name).map_err(Usage)?;
+    name::check(name, "pipeline").map_err(Usage)?;
     let pipeline = format!("{PIPELINES}/{name}.rhai");
     if files.project().is_none() {
         return Err(FileError::NoProject { path: pipeline }.into());
@@ -80,12 +80,4 @@ fn refuse_taken(name: &str, files: &Files) -> anyhow::Result<()> {
         bail!("there are shaders in shaders/{taken}/ already; choose another name");
     }
     Ok(())
-}
-
-/// `night_vision` as people write it: `Night vision`.
-fn title(name: &str) -> String {
-    let words = name.replace(['_', '-'], " ");
-    let mut letters = words.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.chain(letters.clone()).collect()
 }

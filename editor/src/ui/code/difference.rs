@@ -184,7 +184,8 @@ mod tests {
                 .map(|line| format!("{line}\n"))
                 .collect()
         };
-        let lines = compare(&text(0), &text(5000));
+        let (first, second) = (text(0), text(5000));
+        let lines = compare(&first, &second);
         let (_, _, changed) = texts_of(&lines);
         assert_eq!(changed, 4000);
     }

@@ -128,16 +128,16 @@ impl Document {
             Some(found) => Some(Outside::Changed(found.text.clone())),
             None => Some(Outside::Deleted),
         };
-        let (base, form, origin) = match found {
-            Some(found) => (Some(found.text), found.form, found.origin),
-            None => (None, Form::default(), Origin::Project(on_disk)),
+        let (base, form) = match found {
+            Some(found) => (Some(found.text), found.form),
+            None => (None, Form::default()),
         };
         Self {
             path: path.to_owned(),
             text,
             base,
             form,
-            origin,
+            origin: Origin::Project(on_disk),
             outside,
             failure: None,
             edits: 1,
@@ -162,8 +162,13 @@ impl Document {
         self.origin == Origin::Shipped && !self.is_unsaved()
     }
 
-    /// Whether the text differs from the file.
+    /// Whether the text differs from the file, or is nowhere else.
     pub fn is_unsaved(&self) -> bool {
+        self.is_changed() || self.outside == Some(Outside::Deleted)
+    }
+
+    /// Whether the text differs from what was last seen in the file.
+    fn is_changed(&self) -> bool {
         self.base.as_deref() != Some(self.text.as_str())
     }
 
@@ -188,7 +193,8 @@ impl Document {
         let found = match look_up(files, &self.path) {
             Ok(found) => found,
             Err(FileError::NotFound { .. }) => {
-                if self.base.take().is_some() {
+                // What it was stays known: some programs save by deleting first.
+                if self.base.is_some() {
                     self.outside = Some(Outside::Deleted);
                 }
                 return;
@@ -198,12 +204,13 @@ impl Document {
                 return;
             }
         };
-        let unsaved = self.is_unsaved();
+        let unsaved = self.is_changed();
         // A text that is not saved stays one of the project, where its file has gone.
         if !unsaved || found.origin != Origin::Shipped {
             self.origin = found.origin;
         }
         if self.base.as_deref() == Some(found.text.as_str()) {
+            self.outside = None;
             return;
         }
         if unsaved && found.text != self.text {
@@ -398,6 +405,32 @@ mod tests {
         document.keep_mine();
         document.save(&files).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "one\ntwo\n");
+
+        // One that is deleted to be written anew is no conflict, unless there is unsaved text.
+        std::fs::remove_file(&path).unwrap();
+        document.refresh(&files);
+        std::fs::write(&path, "three\n").unwrap();
+        document.refresh(&files);
+        assert_eq!(
+            (document.text.as_str(), document.outside.as_ref()),
+            ("three\n", None)
+        );
+        type_into(&mut document, "mine\n");
+        std::fs::remove_file(&path).unwrap();
+        document.refresh(&files);
+        std::fs::write(&path, "four\n").unwrap();
+        document.refresh(&files);
+        assert_eq!(
+            document.outside,
+            Some(Outside::Changed("four\n".to_owned()))
+        );
+        // It is as it was again.
+        std::fs::write(&path, "three\n").unwrap();
+        document.refresh(&files);
+        assert_eq!(
+            (document.text.as_str(), document.outside.as_ref()),
+            ("mine\n", None)
+        );
     }
 
     #[test]

@@ -188,10 +188,12 @@ impl Code {
     pub fn restore(&mut self, files: &mut Files, index: usize) {
         let draft = self.offered.remove(index);
         // What is outside the project has another number in each run.
-        let path = match draft.path.starts_with('@') {
-            true => files.grant(&draft.on_disk).unwrap_or(draft.path.clone()),
-            false => draft.path.clone(),
-        };
+        let granted = draft
+            .path
+            .starts_with('@')
+            .then(|| files.grant(&draft.on_disk));
+        let path = granted.and_then(Result::ok);
+        let path = path.unwrap_or_else(|| draft.path.clone());
         let (on_disk, text) = (draft.on_disk.clone(), draft.text.clone());
         let document = Document::recover(files, &path, on_disk, text, |text| draft.is_from(text));
         // Before the other is removed, so that there is one at any time.

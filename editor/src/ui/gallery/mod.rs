@@ -50,6 +50,8 @@ impl Gallery {
     /// Opens the window; what lies in the folders is read in the background.
     pub fn open(&mut self, files: &Files, wake: &Wake) {
         self.is_open = true;
+        // Files may have changed: what is kept of them is looked through again.
+        self.thumbnails.forget();
         let (files, wake) = (files.clone(), wake.clone());
         let read = Task::start(move |_| {
             let examples = cards::examples(&files);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -23,6 +23,9 @@ mod draw;
 
 /// How long a person must do nothing before the next picture is drawn.
 const REST: Duration = Duration::from_millis(400);
+
+/// How long a device is held for pictures that may be wanted yet.
+const HELD: Duration = Duration::from_secs(10);
 
 /// How often the thread looks whether that is so.
 const LOOK: Duration = Duration::from_millis(50);
@@ -114,7 +117,7 @@ impl Thumbnails {
         state
     }
 
-    /// Pictures on another device are lost; they are asked for again.
+    /// Asks for all pictures again, as for another device, on which they are lost.
     pub fn forget(&mut self) {
         self.states.clear();
     }
@@ -229,7 +232,15 @@ fn work(
 ) {
     // Opened for the first picture that is not kept.
     let mut studio: Option<Result<Studio, String>> = None;
-    while let Ok(Order { path, opens }) = inbox.recv() {
+    loop {
+        let Order { path, opens } = match inbox.recv_timeout(HELD) {
+            Ok(order) => order,
+            Err(RecvTimeoutError::Timeout) => {
+                studio = None;
+                continue;
+            }
+            Err(RecvTimeoutError::Disconnected) => return,
+        };
         let what = format!("{opens:?} {path}");
         let kept = folder
             .as_ref()

@@ -1,8 +1,8 @@
 //! The window with scenes, pipelines and examples.
 
 use egui::{
-    Align2, Color32, Context, CornerRadius, FontId, Pos2, Rect, RichText, ScrollArea, Sense,
-    Stroke, StrokeKind, TextEdit, TextWrapMode, Ui, Window, vec2,
+    Align, Align2, Color32, Context, CornerRadius, FontId, Layout, Pos2, Rect, RichText,
+    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextWrapMode, Ui, Window, vec2,
 };
 
 use crate::ui::editor::Editor;
@@ -105,7 +105,9 @@ fn contents(editor: &mut Editor, ui: &mut Ui) -> Option<Wish> {
 fn one(editor: &mut Editor, ui: &mut Ui, card: &Card, has_project: bool) -> Option<Wish> {
     let mut wish = None;
     let (rect, _) = ui.allocate_exact_size(CARD, Sense::hover());
-    let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("card"));
+    let below = Layout::top_down(Align::Min);
+    let card_area = egui::UiBuilder::new().max_rect(rect).layout(below);
+    let mut ui = ui.new_child(card_area.id_salt("card"));
     ui.set_clip_rect(rect.intersect(ui.clip_rect()));
     ui.spacing_mut().item_spacing.y = 3.0;
     let (place, picture) = ui.allocate_exact_size(PICTURE, Sense::click());

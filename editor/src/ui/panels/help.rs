@@ -6,7 +6,7 @@ use crate::ui::actions::{entries, key_text};
 use crate::ui::editor::Editor;
 
 /// What the mouse does in the viewport.
-const MOUSE: [(&str, &str); 12] = [
+const MOUSE: [(&str, &str); 13] = [
     ("Choose an entity", "click; with Ctrl more of them"),
     (
         "Choose by a box",
@@ -16,6 +16,10 @@ const MOUSE: [(&str, &str); 12] = [
     (
         "Move, rotate, scale",
         "drag a handle; Ctrl snaps, digits give the amount",
+    ),
+    (
+        "Put an entity below another one",
+        "drag its row in the list of entities",
     ),
     ("Open a file", "drop it onto the window"),
     ("Orbit", "left drag"),

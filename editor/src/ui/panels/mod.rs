@@ -23,6 +23,7 @@ pub mod pipelines;
 pub mod pixel;
 pub mod pixel_light;
 pub mod plots;
+pub mod saving;
 pub mod select;
 pub mod status;
 pub mod stepping;

@@ -29,6 +29,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             ui.spinner();
         }
     });
+    pixel_light::choose(editor, ui);
+    let workbench = &editor.workbench;
     let probing = &workbench.probing;
     let other = workbench.pipelines.shown() != Some(probing.pipeline.as_str());
     if other || probing.values.is_empty() && probing.invalid.is_none() {
@@ -40,10 +42,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ui.label(text);
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        pixel_light::show(editor, ui);
         values(editor, ui);
-        if editor.workbench.probing.pixel.is_some() {
-            pixel_light::show(editor, ui);
-        }
     });
 }
 

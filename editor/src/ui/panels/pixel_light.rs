@@ -11,26 +11,10 @@ use crate::ui::workbench::lighting::Lit;
 /// Lamps that are listed; the rest is summed up.
 const MOST_LAMPS: usize = 40;
 
-/// Draws both parts.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    lamps(editor, ui);
-    beside(editor, ui);
-}
-
-/// A table of four columns that may be wider than the panel.
-fn wide(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
-    ScrollArea::horizontal().id_salt(name).show(ui, |ui| {
-        Grid::new(name).num_columns(4).striped(true).show(ui, rows);
-    });
-}
-
-fn numbers(values: [f64; 3]) -> String {
-    values.map(|value| format!("{value:9.5}")).join(" ")
-}
-
-fn lamps(editor: &mut Editor, ui: &mut Ui) {
-    let workbench = &mut editor.workbench;
-    ui.horizontal(|ui| {
+/// The switches of both parts.
+pub fn choose(editor: &mut Editor, ui: &mut Ui) {
+    ui.horizontal_wrapped(|ui| {
+        let workbench = &mut editor.workbench;
         let about = "What each light adds to the pixel, computed on the processor from the scene as it \
                      stands, by the same formulas as the shaders have. Without shadows.";
         let on = ui.checkbox(&mut workbench.lighting.on, "Light by light");
@@ -40,7 +24,29 @@ fn lamps(editor: &mut Editor, ui: &mut Ui) {
         if workbench.lighting.is_waiting() {
             ui.spinner();
         }
+        choose_beside(editor, ui);
     });
+}
+
+/// Draws both parts, where they are switched on.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    beside(editor, ui);
+    lamps(editor, ui);
+}
+
+/// A table that may be wider than the panel.
+fn wide(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
+    ScrollArea::horizontal().id_salt(name).show(ui, |ui| {
+        Grid::new(name).striped(true).show(ui, rows);
+    });
+}
+
+fn numbers(values: [f64; 3]) -> String {
+    values.map(|value| format!("{value:8.5}")).join(" ")
+}
+
+fn lamps(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &mut editor.workbench;
     if !workbench.lighting.on {
         return;
     }
@@ -133,36 +139,39 @@ fn table(ui: &mut Ui, lit: &Lit) -> Option<Entity> {
     clicked
 }
 
-fn beside(editor: &mut Editor, ui: &mut Ui) {
+fn choose_beside(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let chosen = workbench.beside.pipeline.clone();
     let title = |name: &str| workbench.library.pipeline_title(name).to_owned();
     let shown = chosen.as_deref().map_or_else(|| "none".to_owned(), title);
     let here = workbench.pipelines.shown().unwrap_or_default().to_owned();
     let mut wanted = None;
-    ui.horizontal(|ui| {
-        let response = combo(ui, "Compare with", &shown, 170.0, |ui| {
-            if ui.selectable_label(chosen.is_none(), "none").clicked() {
-                wanted = Some(None);
+    let response = combo(ui, "Compare with", &shown, 170.0, |ui| {
+        if ui.selectable_label(chosen.is_none(), "none").clicked() {
+            wanted = Some(None);
+        }
+        for entry in &workbench.library.pipelines {
+            let is_chosen = chosen.as_ref() == Some(&entry.name);
+            if entry.name != here && ui.selectable_label(is_chosen, &entry.title).clicked() {
+                wanted = Some(Some(entry.name.clone()));
             }
-            for entry in &workbench.library.pipelines {
-                let is_chosen = chosen.as_ref() == Some(&entry.name);
-                if entry.name != here && ui.selectable_label(is_chosen, &entry.title).clicked() {
-                    wanted = Some(Some(entry.name.clone()));
-                }
-            }
-        });
-        response.on_hover_text(
-            "Draws the same moment once with another pipeline, and reads the pixel there. The \
-             picture on screen stays.",
-        );
-        if workbench.beside.is_waiting() {
-            ui.spinner();
         }
     });
+    response.on_hover_text(
+        "Draws the same moment once with another pipeline, and reads the pixel there. The \
+             picture on screen stays.",
+    );
+    if workbench.beside.is_waiting() {
+        ui.spinner();
+    }
     if let Some(wanted) = wanted {
         workbench.put_beside(wanted.as_deref());
     }
+}
+
+/// What both pipelines leave in the pixel.
+fn beside(editor: &Editor, ui: &mut Ui) {
+    let workbench = &editor.workbench;
     if let Some(problem) = &workbench.beside.problem {
         ui.label(problem);
     }
@@ -170,23 +179,32 @@ fn beside(editor: &mut Editor, ui: &mut Ui) {
         return;
     };
     let now = workbench.probing.results;
+    let rgb = |value: Option<[f32; 4]>| value.map(|[r, g, b, _]| [r, g, b].map(f64::from));
+    let apart = |here: Option<[f64; 3]>, there: Option<[f64; 3]>| {
+        let both = here.zip(there);
+        both.map(|(here, there)| [0, 1, 2].map(|channel| there[channel] - here[channel]))
+    };
+    let (light, picture) = (
+        [rgb(now.hdr), rgb(there.hdr)],
+        [rgb(now.output), rgb(there.output)],
+    );
     wide(ui, "beside", |ui| {
-        for title in ["", "Here", "There", "Difference"] {
+        for title in ["", "Light", "Picture"] {
             ui.strong(title);
         }
         ui.end_row();
         let rows = [
-            ("Light", now.hdr, there.hdr),
-            ("Picture", now.output, there.output),
+            ("Here", light[0], picture[0]),
+            ("There", light[1], picture[1]),
+            (
+                "Difference",
+                apart(light[0], light[1]),
+                apart(picture[0], picture[1]),
+            ),
         ];
-        for (name, here, there) in rows {
+        for (name, light, picture) in rows {
             ui.label(name);
-            let rgb = |value: Option<[f32; 4]>| value.map(|[r, g, b, _]| [r, g, b].map(f64::from));
-            let (here, there) = (rgb(here), rgb(there));
-            let apart = here
-                .zip(there)
-                .map(|(here, there)| [0, 1, 2].map(|channel| there[channel] - here[channel]));
-            for value in [here, there, apart] {
+            for value in [light, picture] {
                 let text = value.map_or_else(|| MISSING.to_owned(), numbers);
                 ui.label(RichText::new(text).monospace());
             }

@@ -9,6 +9,7 @@ use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::extent::bounds_of;
+use crate::ui::workbench::structure::is_locked;
 
 /// Chooses what is under a place; nothing there chooses none. With `more` what was chosen stays.
 pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool) {
@@ -17,8 +18,12 @@ pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool) {
     let Some(scene) = workbench.scenes.scene() else {
         return;
     };
+    let is_free = |entity: Entity| !is_locked(&scene.world, entity);
     let icon = icons.then(|| icon_at(scene, lens, at)).flatten();
-    let under = icon.or_else(|| scene.pick(lens.ray(at)).map(|hit| hit.entity));
+    let under = icon.or_else(|| {
+        let hit = scene.pick_among(lens.ray(at), is_free);
+        hit.map(|hit| hit.entity)
+    });
     match (under, more) {
         (Some(entity), true) => workbench.selection.toggle(scene, entity),
         (Some(entity), false) => workbench.selection.set(scene, [entity]),
@@ -58,7 +63,8 @@ fn inside(scene: &Scene, lens: &Lens, area: Rect, icons: bool) -> Vec<Entity> {
         .filter(|_| icons)
         .filter_map(|entity| Some((*entity, place_of(scene, *entity)?)));
     let all = meshes.chain(marked);
-    all.filter(|(_, at)| lens.point(*at).is_some_and(|place| area.contains(place)))
+    all.filter(|(entity, _)| !is_locked(world, *entity))
+        .filter(|(_, at)| lens.point(*at).is_some_and(|place| area.contains(place)))
         .map(|(entity, _)| entity)
         .collect()
 }

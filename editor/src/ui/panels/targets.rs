@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use egui::{Color32, DragValue, Rect, RichText, Sense, TextureOptions, Ui, pos2};
+use egui::{Color32, DragValue, Rect, RichText, ScrollArea, Sense, TextureOptions, Ui, pos2};
 use lightbench::render::PipelineDesc;
 use lightbench::render::description::Shape;
 use lightbench::render::inspect::{Aspect, Channels, ColorMap, Inspection};
@@ -25,6 +25,9 @@ pub struct TargetsPanel {
     /// The pipeline whose target is looked at; another pipeline begins with what suits it.
     pipeline: String,
 }
+
+/// The least height of the picture, points.
+const LEAST_HEIGHT: f32 = 110.0;
 
 const CHANNELS: [(Channels, &str); 5] = [
     (Channels::Color, "Colour"),
@@ -82,8 +85,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         workbench.inspect(request.clone());
     }
     if let Some(request) = &request {
-        histogram::show(editor, ui, request, now);
-        picture(editor, ui, &desc, request);
+        // The picture takes what is left, and is still there where that is little.
+        let bottom = ui.max_rect().bottom();
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            histogram::show(editor, ui, request, now);
+            picture(editor, ui, &desc, request, bottom);
+        });
     } else {
         let text = "Choose a target to see it as it is after a pass.";
         ui.label(RichText::new(text).weak());
@@ -271,7 +278,13 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32, aut
     });
 }
 
-fn picture(editor: &mut Editor, ui: &mut Ui, desc: &PipelineDesc, request: &Inspection) {
+fn picture(
+    editor: &mut Editor,
+    ui: &mut Ui,
+    desc: &PipelineDesc,
+    request: &Inspection,
+    bottom: f32,
+) {
     let Some(texture) = editor.workbench.inspected() else {
         ui.label(RichText::new("The next frame shows it.").weak());
         return;
@@ -283,7 +296,8 @@ fn picture(editor: &mut Editor, ui: &mut Ui, desc: &PipelineDesc, request: &Insp
         let text = format!("{width} x {height}  {}  {}", format.name(), bytes(size));
         ui.label(RichText::new(text).monospace().small());
     }
-    let available = ui.available_size();
+    let left = bottom - ui.cursor().top();
+    let available = egui::vec2(ui.available_width(), left.max(LEAST_HEIGHT));
     let aspect = width as f32 / height.max(1) as f32;
     let size = if available.x / available.y.max(1.0) > aspect {
         egui::vec2(available.y * aspect, available.y)

@@ -16,6 +16,8 @@ use crate::ui::workbench::sight::Sight;
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     ui.add_space(1.0);
     ui.horizontal_wrapped(|ui| {
+        // A button goes to the next line as a whole.
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         scene(editor, ui);
         ui.separator();
         pipeline(editor, ui);
@@ -85,8 +87,11 @@ fn pipeline(editor: &mut Editor, ui: &mut Ui) {
         }
     });
     response.on_hover_text("Keys 1 to 9, [ and ]. Scene, camera and time stay.");
+    // Its place stays, so that nothing else moves and the picture keeps its size.
+    let size = egui::Vec2::splat(ui.spacing().interact_size.y);
+    let (place, _) = ui.allocate_exact_size(size, egui::Sense::hover());
     if workbench.pipelines.is_busy() {
-        ui.spinner();
+        egui::Spinner::new().paint_at(ui, place);
     }
     if let Some(name) = wanted {
         workbench.select_pipeline(&name);

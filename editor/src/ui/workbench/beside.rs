@@ -138,7 +138,8 @@ impl Workbench {
         let (world, assets) = (&mut scene.world, &scene.assets);
         let pipeline = match self.pipelines.beside(&name) {
             Ok(Some(pipeline)) => pipeline,
-            Ok(None) => return,
+            // It may have been told to be built anew meanwhile.
+            Ok(None) => return self.pipelines.build_beside(&name),
             Err(problem) => return self.beside.fail(problem),
         };
         let warm = self

@@ -110,11 +110,13 @@ impl Workbench {
         };
         let wanted = Drawn { view, size, scale };
         self.follow_stop();
+        self.go_on_with_other();
         self.warm_up(wanted);
         let held = self.canvas.drawn_at.is_some_and(|at| now - at < HOLD);
         let held = held && (self.pipelines.is_renewing() || self.scenes.is_renewing());
         if (self.canvas.stale || self.canvas.again || before != Some(wanted))
             && !held
+            && !self.comparing.is_waiting()
             && self.has_room()
         {
             self.canvas.drawn_at = Some(now);
@@ -145,7 +147,7 @@ impl Workbench {
     }
 
     /// Whether the device could take another frame without letting it wait.
-    fn has_room(&self) -> bool {
+    pub(super) fn has_room(&self) -> bool {
         let most = if self.gpu().summary.software {
             1
         } else {
@@ -265,7 +267,7 @@ impl Workbench {
         let index = self.renderer.frame_index();
         self.redraw_first(wanted);
         let size = Resolution::apply(wanted.size, wanted.scale);
-        self.redraw_other(&wanted.view, size, index);
+        self.redraw_other(wanted.view, size, index);
     }
 
     fn redraw_first(&mut self, wanted: Drawn) {

@@ -43,21 +43,51 @@ impl Workbench {
         what: &str,
         fields: &[(Entity, &str, Value)],
     ) -> Result<(), String> {
-        let mut changes = Vec::with_capacity(fields.len());
-        let mut result = Ok(());
-        for (entity, path, value) in fields {
-            let name = match self.name_kept(*entity) {
-                Ok(name) => name,
-                Err(why) => {
-                    result = Err(why);
-                    break;
-                }
-            };
-            let before = self.field_content(&name, path);
-            result = self.lay_field(&name, path, value);
-            if result.is_err() {
-                break;
-            }
+        let (changes, result) = self.change_fields(fields);
+        self.undo.note(what.to_owned(), changes);
+        result
+    }
+
+    /// Changes a field as a part of a step.
+    pub(super) fn change_field(
+        &mut self,
+        entity: Entity,
+        path: &str,
+        value: Value,
+    ) -> Result<Change, String> {
+        let (mut changes, result) = self.change_fields(&[(entity, path, value)]);
+        result?;
+        changes.pop().ok_or_else(|| "no scene is loaded".to_owned())
+    }
+
+    /// Changes fields, those before the first that can't be.
+    fn change_fields(
+        &mut self,
+        fields: &[(Entity, &str, Value)],
+    ) -> (Vec<Change>, Result<(), String>) {
+        let shown = self.scenes.shown().unwrap_or_default().to_owned();
+        let Some(scene) = self.scenes.scene_mut() else {
+            return (Vec::new(), Err("no scene is loaded".to_owned()));
+        };
+        let entities: Vec<Entity> = fields.iter().map(|(entity, ..)| *entity).collect();
+        let names = match scene.keep_names(&entities) {
+            Ok(names) => names,
+            Err(why) => return (Vec::new(), Err(why)),
+        };
+        let overlays = self.overlays.entry(shown).or_default();
+        let content = |overlays: &Overlays, name: &str, path: &str| {
+            let overlay = overlays.get(name, path)?;
+            Some(Content::Value(overlay.value.clone()))
+        };
+        let before: Vec<Option<Content>> = fields
+            .iter()
+            .zip(&names)
+            .map(|((_, path, _), name)| content(overlays, name, path))
+            .collect();
+        let (count, result) = overlays.set_many(scene, fields);
+        let mut changes = Vec::with_capacity(count);
+        for (((_, path, value), name), before) in fields.iter().zip(names).zip(before).take(count) {
+            self.note_field(&name, path, value, "changed by hand");
             changes.push(Change {
                 target: Target::Field {
                     entity: name,
@@ -67,8 +97,8 @@ impl Workbench {
                 after: Some(Content::Value(value.clone())),
             });
         }
-        self.undo.note(what.to_owned(), changes);
-        result
+        self.canvas.invalidate();
+        (changes, result)
     }
 
     fn name_kept(&self, entity: Entity) -> Result<String, String> {
@@ -99,22 +129,42 @@ impl Workbench {
 
     /// Gives a field back to the scene's script.
     pub fn reset_field(&mut self, entity: &str, path: &str) {
-        let all = self.lifted(Some(entity)).into_iter();
-        let of_it = |change: &Change| matches!(&change.target, Target::Field { path: own, .. } if own == path);
-        let changes = all.filter(of_it).collect();
-        self.lift(format!("{path} of {entity} back to the script"), changes);
+        self.reset_fields(&[entity.to_owned()], Some(path));
     }
 
-    /// Gives all fields of an entity back to the scene's script.
-    pub fn reset_entity(&mut self, entity: &str) {
-        let changes = self.lifted(Some(entity));
-        self.lift(format!("{entity} back to the script"), changes);
+    /// Gives a field of entities back to the scene's script, or without a path all of their fields.
+    pub fn reset_fields(&mut self, entities: &[String], path: Option<&str>) {
+        let mut changes = self.lifted();
+        let is_one = |entity: &String| entities.contains(entity);
+        changes.retain(|change| match &change.target {
+            Target::Field { entity, path: own } => {
+                is_one(entity) && path.is_none_or(|path| own == path)
+            }
+            _ => false,
+        });
+        let whose = match entities {
+            [one] => one.clone(),
+            all => format!("{} entities", all.len()),
+        };
+        let what = match path {
+            Some(path) => format!("{path} of {whose} back to the script"),
+            None => format!("{whose} back to the script"),
+        };
+        self.lift(what, changes);
     }
 
     /// Gives everything back to the scene's script.
     pub fn reset_all_fields(&mut self) {
-        let changes = self.lifted(None);
-        self.lift("all back to the script".to_owned(), changes);
+        let mut changes = self.lifted();
+        for change in &changes {
+            if let Target::Field { entity, path } = &change.target {
+                self.lift_field(entity, path);
+            }
+        }
+        changes.extend(self.lift_structure());
+        self.undo.seal();
+        self.undo.note("all back to the script".to_owned(), changes);
+        self.undo.seal();
     }
 
     fn lift(&mut self, what: String, changes: Vec<Change>) {
@@ -143,9 +193,14 @@ impl Workbench {
 
     /// All that was changed by hand, as lines for the end of the scene's script.
     pub fn overlay_lines(&self) -> String {
+        let edits = self.overlays_now().into_iter().flat_map(Overlays::edits);
+        let edits = edits.map(|(edit, _)| {
+            let line = edit.line();
+            line.unwrap_or_else(|| format!("// {}: scripts have no words for it", edit.words()))
+        });
         let all = self.overlays_now().into_iter().flat_map(Overlays::iter);
         let lines = all.filter_map(|(entity, path, overlay)| line(entity, path, &overlay.value));
-        lines.collect::<Vec<_>>().join("\n")
+        edits.chain(lines).collect::<Vec<_>>().join("\n")
     }
 
     pub(super) fn on_overlays(

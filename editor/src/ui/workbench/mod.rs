@@ -32,11 +32,13 @@ pub mod reporting;
 pub mod resolution;
 mod returning;
 mod running;
+pub mod saving;
 pub mod scenes;
 pub mod selection;
 mod setting;
 pub mod sight;
 pub mod stepping;
+pub mod structure;
 pub mod timing;
 pub mod trends;
 pub mod undo;
@@ -351,12 +353,16 @@ impl Workbench {
         self.take_pipelines();
         self.take_other_pipelines();
         self.take_scene();
-        self.arrive();
+        // A moment that one pipeline has drawn and the other has not must not go by.
+        let waits = self.comparing.is_waiting();
+        if !waits {
+            self.arrive();
+        }
         for error in self.library.poll(&self.files, &self.wake) {
             self.log.error(error);
         }
         let clock = self.clock;
-        if let Some(step) = self.clock.advance(elapsed) {
+        if !waits && let Some(step) = self.clock.advance(elapsed) {
             if step > 0.0 {
                 self.begin_play(clock);
             }
@@ -445,6 +451,7 @@ impl Workbench {
         // A view begins at the beginning.
         let again = again && !self.is_arriving();
         self.renderer.reset_scene();
+        self.comparing.wait_no_more();
         self.timings = Timings::default();
         let name = self.scenes.shown().unwrap_or_default().to_owned();
         let Some(scene) = self.scenes.scene_mut() else {

@@ -15,6 +15,9 @@ impl Workbench {
     /// A sentence, where the folder can't be read; the present project stays.
     pub fn open_project(&mut self, folder: &Path) -> Result<(), String> {
         let files = Files::with_project(folder).map_err(|error| error.to_string())?;
+        // What was done by hand was done to the scenes of the former one.
+        self.overlays.clear();
+        self.undo.clear();
         self.watch = Watch::start(&files, &self.wake, &mut self.log);
         self.use_files(files);
         let compiler = self.renderer.compiler();

@@ -24,12 +24,13 @@ impl Workbench {
                 {
                     self.canvas.invalidate();
                 }
+                let beside = self.comparing.beside_ms();
                 for measured in results {
                     if self.timings.measured(measured) {
                         self.trends.measured(Instant::now(), measured);
                     }
                     if let Some((scale, ms)) = self.canvas.measured(measured) {
-                        self.resolution.measured(scale, ms);
+                        self.resolution.measured(scale, ms + beside);
                     }
                 }
             }

@@ -75,6 +75,17 @@ impl Selection {
         }
     }
 
+    /// Takes note of names that may have changed, and forgets what is gone.
+    pub fn names_changed(&mut self, scene: &Scene) {
+        let names = scene.world.columns::<Name>();
+        self.chosen
+            .retain(|chosen| scene.world.contains(chosen.entity));
+        for chosen in &mut self.chosen {
+            let row = names.row_of(chosen.entity);
+            chosen.name = row.map_or_else(String::new, |row| names.text()[row].clone());
+        }
+    }
+
     /// Finds the entities again in a scene that may have been loaded anew; `swaps` counts loads.
     pub fn refresh(&mut self, scene: &Scene, swaps: u64) {
         if self.swaps != swaps {

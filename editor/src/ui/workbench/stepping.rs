@@ -104,6 +104,10 @@ impl Workbench {
 
     /// Asks for what is to be shown, where that changed: also when another pipeline came.
     pub(super) fn follow_stop(&mut self) {
+        let looks = self.renderer.inspector().request_of(Viewer::Picture);
+        if self.stop.is_none() && looks.is_none() {
+            return;
+        }
         let far = self.far_shown();
         let wanted = self.stopped().and_then(|stopped| {
             let desc = &self.pipelines.shown_pipeline()?.desc;

@@ -1,7 +1,7 @@
 //! Taking back what was changed by hand, and doing it again.
 
 use lightbench::script::SettingValue;
-use lightbench::script::overlays::Overlays;
+use lightbench::script::overlays::{Edit, Overlays};
 use lightbench::world::{Entity, Name, Value};
 
 use super::Workbench;
@@ -28,6 +28,8 @@ pub enum Target {
         /// The parameter's name.
         parameter: String,
     },
+    /// The list of changes of the scene's structure, which grows or shrinks by one.
+    Structure,
     /// A parameter of an entity's behaviour.
     Behaviour {
         /// The entity, until the scene is loaded anew.
@@ -46,6 +48,8 @@ pub enum Content {
     Value(Value),
     /// A parameter's value.
     Setting(SettingValue),
+    /// A change of the scene's structure.
+    Edit(Box<Edit>),
 }
 
 /// One change: what it was before and is after. `None` where nobody has set anything.
@@ -75,7 +79,7 @@ impl Step {
 }
 
 /// Steps that are kept; older ones can't be taken back.
-const CAPACITY: usize = 500;
+const CAPACITY: usize = 100_000;
 
 /// What was done and what was taken back.
 #[derive(Debug, Default)]
@@ -139,7 +143,11 @@ impl Workbench {
             return false;
         };
         for change in step.changes.iter().rev() {
-            self.apply(&change.target, change.before.as_ref());
+            self.apply(
+                &change.target,
+                change.before.as_ref(),
+                change.after.as_ref(),
+            );
         }
         self.undo.undone.push(step);
         true
@@ -152,7 +160,11 @@ impl Workbench {
             return false;
         };
         for change in &step.changes {
-            self.apply(&change.target, change.after.as_ref());
+            self.apply(
+                &change.target,
+                change.after.as_ref(),
+                change.before.as_ref(),
+            );
         }
         self.undo.done.push(step);
         true
@@ -171,14 +183,16 @@ impl Workbench {
         }
     }
 
-    /// What somebody has set a field to.
-    pub(super) fn field_content(&self, entity: &str, path: &str) -> Option<Content> {
-        let overlay = self.overlays_now().and_then(|all| all.get(entity, path))?;
-        Some(Content::Value(overlay.value.clone()))
-    }
-
-    fn apply(&mut self, target: &Target, content: Option<&Content>) {
+    /// Makes a target what it was or is; `other` is what it is until then.
+    fn apply(&mut self, target: &Target, content: Option<&Content>, other: Option<&Content>) {
         let result = match (target, content) {
+            (Target::Structure, Some(Content::Edit(edit))) => {
+                self.do_edit(edit.as_ref().clone()).map(drop)
+            }
+            (Target::Structure, _) => match other {
+                Some(Content::Edit(edit)) => self.take_back_edit(edit),
+                _ => Ok(()),
+            },
             (Target::Field { entity, path }, Some(Content::Value(value))) => {
                 self.lay_field(entity, path, value)
             }
@@ -255,18 +269,17 @@ impl Workbench {
     }
 
     /// All fields that were changed, with what they were set to, as changes back to the script.
-    pub(super) fn lifted(&self, entity: Option<&str>) -> Vec<Change> {
+    pub(super) fn lifted(&self) -> Vec<Change> {
         let all = self.overlays_now().into_iter().flat_map(Overlays::iter);
-        all.filter(|(name, ..)| entity.is_none_or(|entity| *name == entity))
-            .map(|(name, path, overlay)| Change {
-                target: Target::Field {
-                    entity: name.to_owned(),
-                    path: path.to_owned(),
-                },
-                before: Some(Content::Value(overlay.value.clone())),
-                after: None,
-            })
-            .collect()
+        all.map(|(name, path, overlay)| Change {
+            target: Target::Field {
+                entity: name.to_owned(),
+                path: path.to_owned(),
+            },
+            before: Some(Content::Value(overlay.value.clone())),
+            after: None,
+        })
+        .collect()
     }
 }
 
@@ -312,6 +325,7 @@ mod tests {
             undo.note("c".to_owned(), change("c", 0.0, 1.0));
         }
         assert_eq!(undo.done().len(), CAPACITY);
+        assert_eq!(undo.done()[0].what, "c", "the oldest are gone");
         undo.clear();
         assert!(undo.done().is_empty() && undo.undone().is_empty());
     }

@@ -157,7 +157,15 @@ impl Workbench {
         self.clock.playing = false;
         match camera {
             Eye::Scene => self.reset_camera(),
-            Eye::Named(name) => self.look_through(Sight::Camera(name)),
+            Eye::Named(name) => {
+                if !self.cameras().contains(&name) {
+                    self.log.error(format!(
+                        "The view is through the camera {name}, which the scene does not have: this is \
+                         its own one."
+                    ));
+                }
+                self.look_through(Sight::Camera(name));
+            }
             Eye::Free(free) => self.camera.stand(free),
             Eye::Side(flat) => self.camera.show_flat(flat),
         }

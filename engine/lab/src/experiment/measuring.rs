@@ -1,10 +1,12 @@
 //! What experiments measure and compare.
 
+use std::sync::Arc;
+
 use lightbench_assets::color::encode_srgb8;
 use lightbench_render::{Format, TargetImage};
 use lightbench_script::{Cost, LaboratoryError, Shot, Task, TimeSpan};
 
-use super::{Device, Workbench};
+use super::{Workbench, lock};
 use crate::diff::{DiffOptions, diff_ldr};
 use crate::measure::{MeasureError, MeasureOptions, measure};
 use crate::metrics::linear_errors;
@@ -39,7 +41,9 @@ impl Workbench {
             frames: task.frames,
             ..MeasureOptions::default()
         };
-        let Some(Device { renderer, .. }) = &mut self.device else {
+        let device = Arc::clone(&self.device);
+        let mut device = lock(&device);
+        let Some(renderer) = device.as_mut() else {
             return Err(LaboratoryError::Other("no device is open".to_owned()));
         };
         renderer.reset_scene();
@@ -51,7 +55,8 @@ impl Workbench {
             &self.progress,
         );
         renderer.reset_scene();
-        self.tell_warnings();
+        let warnings = renderer.take_warnings();
+        self.tell_warnings(warnings);
         let measurement = measured.map_err(|error| match error {
             MeasureError::Render(error) => error.into(),
             MeasureError::Script(problem) => LaboratoryError::Files(problem.into()),

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::files::Files;
-use lightbench_render::{Problem, Problems, RenderError, TargetImage};
+use lightbench_render::{Place, Problem, Problems, RenderError, TargetImage};
 use rhai::Dynamic;
 
 use super::laboratory::{Laboratory, LaboratoryError};
@@ -29,6 +29,8 @@ struct State {
     parameters: Vec<SceneParameter>,
     /// Whether a frame was drawn. Then all parameters are known.
     drawn: bool,
+    /// What went wrong in the laboratory last, with all of its places.
+    fault: Option<Problems>,
 }
 
 impl Bench {
@@ -54,7 +56,13 @@ impl Bench {
     ) -> Result<T, Mistake> {
         let mut laboratory = lock(&self.0.laboratory);
         let result = self.0.watch.free_of_charge(|| work(&mut **laboratory));
-        result.map_err(mistake)
+        result.map_err(|error| {
+            lock(&self.0.state).fault = Some(match &error {
+                LaboratoryError::Files(problems) => problems.clone(),
+                other => Problem::new(Place::default(), other.to_string()).into(),
+            });
+            mistake(error)
+        })
     }
 
     /// An image whose texels count as the script's memory: it may hold many.
@@ -85,6 +93,11 @@ impl Bench {
         parameters::declare(&mut state.parameters, &self.0.settings, arguments)
     }
 
+    /// Takes the last thing that went wrong in the laboratory.
+    pub(super) fn take_fault(&self) -> Option<Problems> {
+        lock(&self.0.state).fault.take()
+    }
+
     /// Notes that a frame is to be drawn, and refuses it where something was set that the
     /// experiment has not declared.
     pub(super) fn begin_draw(&self, path: &str) -> Result<(), Mistake> {
@@ -107,7 +120,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// What went wrong in the laboratory, in the words of the script's line.
-fn mistake(error: LaboratoryError) -> Mistake {
+pub(super) fn mistake(error: LaboratoryError) -> Mistake {
     let hint = match &error {
         LaboratoryError::Files(problems) => return first_problem(problems),
         LaboratoryError::Render(RenderError::NoSlice { mips, layers, .. }) => Some(format!(

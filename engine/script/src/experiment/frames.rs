@@ -48,18 +48,23 @@ pub(super) fn register(api: &mut Api, bench: &Bench, path: &str) {
              for one frame serves the next, and the same call always gives the same frame.",
             move |arguments| {
                 bench.begin_draw(&path)?;
-                let shot = shot(arguments)?;
-                let desc = bench.work(|laboratory| laboratory.draw(&shot))?;
-                Ok(Frame {
-                    bench: bench.clone(),
-                    shot: Arc::new(shot),
-                    desc: Arc::new(desc),
-                })
+                drawn(&bench, arguments)
             },
         );
     }
     describe(api);
     look(api);
+}
+
+/// Draws the frame that the arguments of a `draw` say.
+pub(super) fn drawn(bench: &Bench, arguments: &Arguments) -> Result<Frame, Mistake> {
+    let shot = shot(arguments)?;
+    let desc = bench.work(|laboratory| laboratory.draw(&shot))?;
+    Ok(Frame {
+        bench: bench.clone(),
+        shot: Arc::new(shot),
+        desc: Arc::new(desc),
+    })
 }
 
 fn shot(arguments: &Arguments) -> Result<Shot, Mistake> {
@@ -103,6 +108,44 @@ fn describe(api: &mut Api) {
         |frame: Frame, _| {
             let names = frame.desc.targets.iter().map(|target| target.name.clone());
             Ok(names.map(Dynamic::from).collect::<Array>())
+        },
+    );
+    api.getter(
+        "kinds",
+        "What kind each pass is of, as `geometry` or `fullscreen`, in their order.",
+        |frame: Frame, _| {
+            let kinds = frame
+                .desc
+                .passes
+                .iter()
+                .map(|pass| pass.kind.name().to_owned());
+            Ok(kinds.map(Dynamic::from).collect::<Array>())
+        },
+    );
+    api.getter(
+        "formats",
+        "A map from the names of the pipeline's targets to their formats, as `rgba16float`.",
+        |frame: Frame, _| {
+            let targets = frame.desc.targets.iter();
+            let formats =
+                targets.map(|target| (target.name.as_str().into(), target.format.name().into()));
+            Ok(formats.collect::<Map>())
+        },
+    );
+    api.method(
+        "pixel_bytes(name)",
+        "How many bytes a target takes for each of its texels, with all samples.",
+        |frame: Frame, arguments| {
+            let name = arguments.text(0)?;
+            let target = frame.desc.target(&name).ok_or_else(|| {
+                let names = frame.desc.targets.iter().map(|target| target.name.as_str());
+                let mistake = Mistake::new(format!("there is no target `{name}`"));
+                match lightbench_render::problem::suggestion(&name, names) {
+                    Some(hint) => mistake.with_hint(hint),
+                    None => mistake,
+                }
+            })?;
+            Ok(i64::from(target.format.bytes_per_texel() * target.samples))
         },
     );
     api.getter(

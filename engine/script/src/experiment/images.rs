@@ -42,6 +42,11 @@ impl Image {
         }
     }
 
+    /// What it holds.
+    pub(super) fn texels(&self) -> &Arc<TargetImage> {
+        &self.image
+    }
+
     /// One number for each channel of the format.
     fn channels(&self, one: impl Fn(usize) -> f64) -> Array {
         let channels = 0..(self.image.channels as usize).min(4);

@@ -35,14 +35,22 @@ pub(super) fn register(api: &mut Api, bench: &Bench, path: &str) {
              written, `memory` in bytes, and `counters`, a map of what its shaders counted.",
             move |arguments| {
                 bench.begin_draw(&path)?;
-                let task = task(arguments)?;
-                let costs = bench.work(|laboratory| laboratory.measure(&task))?;
-                let names = task.pipelines.iter().map(|(name, _)| name);
-                let maps = names.zip(costs).map(|(name, cost)| of_cost(name, cost));
-                Ok(maps.map(Dynamic::from).collect::<Array>())
+                let measured = measured(&bench, arguments)?;
+                Ok(measured.into_iter().map(Dynamic::from).collect::<Array>())
             },
         );
     }
+}
+
+/// Measures what the arguments of a `measure` say: a map for each pipeline.
+pub(super) fn measured(bench: &Bench, arguments: &Arguments) -> Result<Vec<Map>, Mistake> {
+    let task = task(arguments)?;
+    let costs = bench.work(|laboratory| laboratory.measure(&task))?;
+    let names = task.pipelines.iter().map(|(name, _)| name);
+    Ok(names
+        .zip(costs)
+        .map(|(name, cost)| of_cost(name, cost))
+        .collect())
 }
 
 fn task(arguments: &Arguments) -> Result<Task, Mistake> {

@@ -1,6 +1,7 @@
 //! Experiments: `scripts/experiments/*.rhai` draw frames, look into them and say what they found.
 
 mod bench;
+mod checks;
 mod frames;
 mod images;
 mod laboratory;
@@ -28,6 +29,9 @@ use crate::parameters;
 use crate::settings::Settings;
 use bench::Bench;
 
+pub use checks::{
+    Bound, CheckFault, CheckScript, Data, Evidence, Examiner, Expected, Given, check_names,
+};
 pub use laboratory::{
     Chart, ChartCurve, Cost, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan,
 };

@@ -86,6 +86,19 @@ impl<'a, 'b, 'c, 'v, 'd> Options<'a, 'b, 'c, 'v, 'd> {
             .transpose()
     }
 
+    /// A number in a range.
+    pub(super) fn number(&self, name: &str, min: f64, max: f64) -> Result<Option<f64>, Mistake> {
+        let Some(value) = self.value(name) else {
+            return Ok(None);
+        };
+        let number = as_number(value).filter(|number| (min..=max).contains(number));
+        let wanted = || match max == f64::MAX {
+            true => format!("a number of at least {min}"),
+            false => format!("a number from {min} to {max}"),
+        };
+        number.map(Some).ok_or_else(|| self.wrong(name, &wanted()))
+    }
+
     /// Two numbers in an array, each read by `read`.
     pub(super) fn pair<T>(
         &self,

@@ -1,7 +1,7 @@
-//! The reference of experiments.
+//! The references of experiments and of the checks of lessons.
 
-use crate::experiment::experiment_names;
-use crate::names::Entry;
+use crate::experiment::{check_names, experiment_names};
+use crate::names::{Entry, Names};
 
 use super::functions::wrapped;
 
@@ -14,7 +14,25 @@ pub fn experiments() -> String {
          instead. -->\n\n",
     );
     text += include_str!("prose/experiments.txt");
-    let names = experiment_names();
+    text.push_str(&sections(&experiment_names()));
+    text
+}
+
+/// The reference of the checks of lessons, as Markdown.
+#[must_use]
+pub fn checks() -> String {
+    let mut text = String::from(
+        "# Checks of lessons: judging what was handed in\n\n\
+         <!-- Written by `lightbench docs checks`. Change the texts in engine/script/src instead. -->\n\n",
+    );
+    text += include_str!("prose/checks.txt");
+    text.push_str(&sections(&check_names()));
+    text
+}
+
+/// All functions under their headings.
+fn sections(names: &Names) -> String {
+    let mut text = String::new();
     let mut section = "";
     let mut entries = names
         .entries()

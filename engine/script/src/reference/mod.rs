@@ -1,5 +1,5 @@
-//! The reference of pipeline files, of the shipped pipelines, of the shader library and of
-//! experiments, as Markdown.
+//! The reference of pipeline files, of the shipped pipelines, of the shader library, of experiments
+//! and of the checks of lessons, as Markdown.
 //!
 //! The pages are made from what the program itself knows: the functions that are registered with
 //! their texts, what these functions say when they are called wrongly (`probe`), and the files of
@@ -25,7 +25,7 @@ pub use abilities::abilities_page as abilities;
 pub use api::api;
 pub use completion::{Candidate, Completions, complete};
 pub use definitions::{Definitions, definitions};
-pub use experiments::experiments;
+pub use experiments::{checks, experiments};
 pub use lookup::{Help, help, help_at};
 pub use pipelines::pipelines;
 pub use shaders::shaders;

@@ -53,6 +53,7 @@ fn the_copies_are_what_is_made_now() {
         &experiments(),
         "lightbench docs experiments",
     );
+    same("checks.md", &checks(), "lightbench docs checks");
     same(
         "shaders.md",
         &shaders(&files).unwrap(),

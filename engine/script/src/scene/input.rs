@@ -40,9 +40,8 @@ impl Happened {
     pub(super) fn in_scene(self, data: &Data) -> Option<Event> {
         match self {
             Self::Key(key) => Some(Event::Key(key)),
-            Self::Click(ray) => {
-                pick(&data.world, &data.assets, ray).map(|hit| Event::Click(hit.entity, hit.point))
-            }
+            Self::Click(ray) => pick(&data.world, &data.assets, ray, |_| true)
+                .map(|hit| Event::Click(hit.entity, hit.point)),
         }
     }
 }

@@ -273,7 +273,12 @@ impl Scene {
     /// The first visible triangle that a ray meets, whichever side it shows. Places are those of the
     /// last step.
     pub fn pick(&self, ray: Ray) -> Option<Hit> {
-        picking::pick(&self.world, &self.assets, ray)
+        self.pick_among(ray, |_| true)
+    }
+
+    /// The same among entities for which a question is answered with yes; the others are seen through.
+    pub fn pick_among(&self, ray: Ray, counts: impl Fn(Entity) -> bool) -> Option<Hit> {
+        picking::pick(&self.world, &self.assets, ray, counts)
     }
 
     /// Brings what the systems compute up to date with changes from outside, without letting time

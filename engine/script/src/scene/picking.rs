@@ -30,7 +30,12 @@ pub struct Hit {
 
 /// The first visible triangle that a ray meets, whichever side it shows. Places are those of the last
 /// step.
-pub(super) fn pick(world: &World, assets: &Assets, ray: Ray) -> Option<Hit> {
+pub(super) fn pick(
+    world: &World,
+    assets: &Assets,
+    ray: Ray,
+    counts: impl Fn(Entity) -> bool,
+) -> Option<Hit> {
     let direction = ray.direction.try_normalize()?;
     let renderers = world.columns::<MeshRenderer>();
     let rows = renderers.slices();
@@ -38,6 +43,9 @@ pub(super) fn pick(world: &World, assets: &Assets, ray: Ray) -> Option<Hit> {
     for (row, &entity) in renderers.entities().iter().enumerate() {
         let farthest = nearest.map_or(f32::INFINITY, |(distance, _)| distance);
         if !rows.visible[row] || !meets_bounds(world, entity, ray.origin, direction, farthest) {
+            continue;
+        }
+        if !counts(entity) {
             continue;
         }
         let Some(mesh) = assets.mesh(rows.mesh[row]) else {
@@ -145,7 +153,7 @@ pub(super) fn register(api: &mut Api, stage: &Stage) {
             };
             let hit = {
                 let data = stage.lock();
-                pick(&data.world, &data.assets, ray)
+                pick(&data.world, &data.assets, ray, |_| true)
             };
             let Some(hit) = hit else {
                 return Ok(Dynamic::UNIT);

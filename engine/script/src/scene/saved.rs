@@ -21,7 +21,7 @@ use lightbench_assets::files::Files;
 use lightbench_assets::{Assets, MaterialId, MeshId, Progress, TextureId};
 use lightbench_render::{Place, Problem, Problems};
 use lightbench_world::scene_file::{self, AssetNames, Definition, SceneError};
-use lightbench_world::{MeshRenderer, World};
+use lightbench_world::{ClipVolume, MeshRenderer, World};
 use rhai::{Dynamic, Scope};
 
 use super::Scene;
@@ -199,7 +199,8 @@ struct Saved {
 impl Saved {
     fn new(world: &World, assets: &Assets, recipes: &Recipes) -> Result<Self, String> {
         let renderers = world.columns::<MeshRenderer>();
-        let used: BTreeSet<MeshId> = renderers.mesh().iter().copied().collect();
+        let volumes = world.columns::<ClipVolume>().mesh().iter();
+        let used: BTreeSet<MeshId> = renderers.mesh().iter().chain(volumes).copied().collect();
         let (meshes, mut definitions) = define(
             "mesh",
             used.iter()

@@ -32,8 +32,9 @@ pub struct CodePanel {
     comparing: bool,
     /// The file is saved once the text has taken what was typed.
     save: bool,
-    /// The text gets the keys in the next frame.
-    focus: bool,
+    /// In how many frames the text gets the keys. A click beside it in the first one takes them away
+    /// again.
+    focus: u8,
     /// What is chosen in the next frame, in bytes.
     choose: Option<std::ops::Range<usize>>,
 }
@@ -41,7 +42,7 @@ pub struct CodePanel {
 impl CodePanel {
     /// Gives the text the keys.
     pub fn focus(&mut self) {
-        self.focus = true;
+        self.focus = 2;
     }
 }
 
@@ -97,7 +98,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     match wish {
         Some(Wish::Choose(range)) => editor.code_panel.choose = Some(range),
         Some(Wish::Go(spot)) => editor.code.going = Some(spot),
-        Some(Wish::Back) => editor.code_panel.focus = true,
+        Some(Wish::Back) => editor.code_panel.focus(),
         None => {}
     }
     match marks {
@@ -156,7 +157,7 @@ fn tabs(editor: &mut Editor, ui: &mut Ui) {
     });
     if let Some(index) = show {
         editor.code.show(index);
-        editor.code_panel.focus = true;
+        editor.code_panel.focus();
     }
     if let Some(index) = close {
         editor.code.close(index);
@@ -180,7 +181,10 @@ fn mark(document: &Document, problem: &Problem) -> Option<Mark> {
 /// The text, and the mistakes below it.
 fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let Editor {
-        code, code_panel, ..
+        code,
+        code_panel,
+        workbench,
+        ..
     } = editor;
     let going = code.going.take();
     let Some(document) = code.shown_mut() else {
@@ -192,7 +196,11 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let height = (area.height() - below).max(60.0);
     let rect = egui::Rect::from_min_size(area.min, egui::vec2(area.width(), height));
     let place = going.map(|spot| text::range_of(&document.text, spot));
-    let focus = std::mem::take(&mut code_panel.focus) || place.is_some();
+    if place.is_some() {
+        code_panel.focus();
+    }
+    let focus = code_panel.focus > 0;
+    code_panel.focus = code_panel.focus.saturating_sub(1);
     let shown = Shown {
         marks,
         found: code_panel.find.found(),
@@ -205,7 +213,7 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let jump = mistakes(ui, marks);
     let (line, column) = text::line_and_column(&document.text, code_panel.field.chosen.end);
     ui.horizontal(|ui| {
-        ui.weak(&document.path);
+        ui.weak(workbench.files().display(&document.path));
         ui.weak(format!("line {line}, column {column}"));
     });
     if let Some(spot) = jump {

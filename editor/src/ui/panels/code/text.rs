@@ -6,8 +6,8 @@ use std::sync::Arc;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::{TextEditOutput, TextEditState};
 use egui::{
-    Align, Align2, Color32, Event, Frame, Galley, Id, Key, Modifiers, Rect, RichText, ScrollArea,
-    Shape, Stroke, TextBuffer, TextEdit, Ui, pos2, vec2,
+    Align, Align2, Color32, Event, Frame, Galley, Id, Key, Modifiers, Rangef, Rect, RichText,
+    ScrollArea, Shape, Stroke, TextBuffer, TextEdit, Ui, pos2, vec2,
 };
 
 use super::lines::{Lines, font};
@@ -49,6 +49,8 @@ pub struct TextField {
     lines: Lines,
     /// The file that was shown last.
     path: String,
+    /// How high the field was: the caret stays in sight where that changes.
+    height: f32,
     /// The letters that are chosen, for who acts on them.
     pub chosen: Range<usize>,
     /// Whether the field had the keys.
@@ -106,18 +108,28 @@ impl TextField {
                 let shapes = backgrounds(ui, &output, shown, &self.chosen);
                 ui.painter().set(behind, shapes);
                 marks(ui, &output, document, shown.marks);
-                if let Some(range) = output.cursor_range.filter(|_| wrote) {
+                let follows = wrote || self.height != area.height();
+                if let Some(range) = output.cursor_range.filter(|_| follows) {
                     let caret = output.galley.pos_from_cursor(range.primary);
                     ui.scroll_to_rect(caret.translate(output.galley_pos.to_vec2()), None);
                 }
                 if let Some(range) = &shown.go {
                     let caret = CCursor::new(letters_before(&document.text, range.start));
                     let place = output.galley.pos_from_cursor(caret);
+                    // The beginning of the line stays in sight where its place is near.
+                    let width = ui.clip_rect().width();
+                    let x_range = if place.right() + 40.0 < width {
+                        Rangef::new(0.0, width)
+                    } else {
+                        place.x_range().expand(40.0)
+                    };
+                    let place = Rect::from_x_y_ranges(x_range, place.y_range());
                     let place = place.translate(output.galley_pos.to_vec2());
-                    ui.scroll_to_rect(place.expand2(vec2(40.0, 0.0)), Some(Align::Center));
+                    ui.scroll_to_rect(place, Some(Align::Center));
                 }
                 (output.galley, output.galley_pos)
             });
+        self.height = area.height();
         let (galley, at) = scroll.inner;
         numbers(ui, gutter, &galley, at.y, shown.marks);
         ui.advance_cursor_after_rect(area);

@@ -18,9 +18,28 @@ pub use over::{interact, over};
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let mut on = editor.workbench.comparing.is_on();
-    if ui.checkbox(&mut on, "Compare two pipelines").changed() {
-        editor.workbench.compare(on);
-    }
+    ui.horizontal_wrapped(|ui| {
+        if ui.checkbox(&mut on, "Compare two pipelines").changed() {
+            editor.workbench.compare(on);
+        }
+        let ctx = ui.ctx().clone();
+        for (title, action, about) in [
+            (
+                "Copy view",
+                CompareAction::CopyView,
+                "What is on screen as a line of text: Ctrl+L",
+            ),
+            (
+                "Paste view",
+                CompareAction::PasteView,
+                "Goes to what such a line says: Ctrl+G",
+            ),
+        ] {
+            if ui.small_button(title).on_hover_text(about).clicked() {
+                compare_actions::perform(editor, action, &ctx);
+            }
+        }
+    });
     if !on {
         let text = "A is the pipeline of the toolbar. B is drawn beside it, on the same scene, camera and time. \
                     Key C begins and ends it.";
@@ -50,8 +69,11 @@ fn sides(editor: &mut Editor, ui: &mut Ui) {
     let selected = side.pipelines.selected().to_owned();
     let busy = side.pipelines.is_busy() || side.pipelines.is_warming();
     let title = workbench.library.pipeline_title(&selected).to_owned();
+    let first = workbench.pipelines.shown().unwrap_or_default();
+    let first = format!("A: {}", workbench.library.pipeline_title(first));
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
+        ui.label(first);
         widgets::combo(ui, "Pipeline B", &title, 170.0, |ui| {
             for entry in &workbench.library.pipelines {
                 let mut text = RichText::new(&entry.title);

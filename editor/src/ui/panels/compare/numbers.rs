@@ -8,12 +8,23 @@ use crate::ui::editor::Editor;
 use crate::ui::workbench::Workbench;
 use crate::ui::workbench::comparing::{Cost, Costs};
 
+/// The width at which what it costs and how far the pictures are apart stand beside each other.
+const BESIDE: f32 = 470.0;
+
 /// Draws the numbers.
 pub fn show(editor: &Editor, ui: &mut Ui) {
     let workbench = &editor.workbench;
-    pictures(workbench, ui);
-    ui.add_space(4.0);
-    costs(workbench, ui);
+    if ui.available_width() < BESIDE {
+        pictures(workbench, ui);
+        ui.add_space(4.0);
+        costs(workbench, ui);
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        ui.vertical(|ui| costs(workbench, ui));
+        ui.add_space(10.0);
+        ui.vertical(|ui| pictures(workbench, ui));
+    });
 }
 
 /// The numbers of a difference, as they are shown and kept: what, the value, and what it means.
@@ -133,7 +144,7 @@ fn costs(workbench: &Workbench, ui: &mut Ui) {
             ui.label("");
             for (name, side) in ["A", "B"].into_iter().zip(&sides) {
                 let title = cell(&|c| c.title.clone(), side);
-                ui.label(RichText::new(format!("{name}: {title}")).strong());
+                ui.label(RichText::new(name).strong()).on_hover_text(title);
             }
             ui.end_row();
             for (what, of, about) in rows {

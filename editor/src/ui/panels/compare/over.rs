@@ -132,7 +132,12 @@ fn split(ui: &Ui, rect: Rect, at: f32, first: &str, second: &str) {
 /// Of which picture the map is, and what its colours mean.
 fn flip(editor: &Editor, ui: &Ui, rect: Rect, names: &str) {
     const STEPS: usize = 64;
-    let text = match editor.workbench.judgement() {
+    // A map of a picture of another size is not shown.
+    let size = editor.workbench.drawn_size();
+    let judgement = editor.workbench.judgement();
+    let judgement = judgement.filter(|judgement| Some(judgement.judged.size) == size);
+    let is_shown = judgement.is_some();
+    let text = match judgement {
         None => format!("{names}: FLIP comes as soon as nothing moves"),
         Some(judgement) => {
             let mean = judgement.judged.difference.flip.mean;
@@ -145,7 +150,7 @@ fn flip(editor: &Editor, ui: &Ui, rect: Rect, names: &str) {
         }
     };
     viewport::note(ui, rect, Align2::CENTER_BOTTOM, &text);
-    if editor.workbench.judgement().is_none() {
+    if !is_shown {
         return;
     }
     let palette = Palette::of(ui);

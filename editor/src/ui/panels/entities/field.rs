@@ -17,6 +17,8 @@ pub struct Row<'a> {
     pub info: &'static FieldInfo,
     pub path: &'static str,
     pub value: &'a Value,
+    /// Whether others that are chosen have another value.
+    pub differs: bool,
     pub overlay: Option<&'a Overlay>,
     /// Why nothing of this entity can be changed.
     pub refused: Option<&'a str>,
@@ -85,6 +87,12 @@ impl Row<'_> {
         ui.horizontal(|ui| {
             self.dot(ui);
             let label = self.label(ui);
+            if self.differs {
+                let about = "What is chosen has different values here. This is the one of the last; a \
+                             change goes to all.";
+                ui.label(RichText::new("differs").small().italics())
+                    .on_hover_text(about);
+            }
             let locked = editable(self.kind, self.info).err().or(self.refused);
             if let Some(why) = locked {
                 let text = RichText::new(self.text()).monospace().weak();

@@ -1,16 +1,23 @@
-//! The entities of the scene: a list, and the fields of one, to be changed by hand.
+//! The entities of the scene: a list, and the fields of what is chosen, to be changed by hand.
 
 mod field;
+mod heading;
 mod list;
+mod several;
+mod switches;
 
 use egui::{RichText, ScrollArea, Ui};
 use lightbench::script::overlays::{field_path, line};
 use lightbench::world::reflect::Role;
-use lightbench::world::{Entity, Name};
+use lightbench::world::{ComponentKind, Entity, Name, Value};
 
+use crate::ui::actions::Action;
 use crate::ui::editor::Editor;
+use crate::ui::layout::Panel;
 use crate::ui::theme::Palette;
-use list::{Choice, Rows};
+use crate::ui::workbench::structure::{is_locked, is_shown};
+pub use field::sentence;
+use list::{Choice, Deed, Rows};
 
 /// What the panel remembers from frame to frame.
 #[derive(Default)]
@@ -18,15 +25,26 @@ pub struct EntitiesPanel {
     rows: Rows,
     /// What is wrong with the last change.
     refused: Option<String>,
+    /// Whether the field of the name is to be typed into.
+    rename: bool,
 }
 
 /// What somebody asked for.
 enum Wish {
-    Set(&'static str, lightbench::world::Value),
-    Reset(String, String),
-    ResetEntity(String),
+    Set {
+        path: &'static str,
+        kind: ComponentKind,
+        field: usize,
+        from: Value,
+        to: Value,
+    },
+    /// Of the entities of these names one field, or all.
+    Reset(Vec<String>, Option<String>),
     ResetAll,
     Copy(String),
+    Rename(String),
+    Add(ComponentKind),
+    Drop(ComponentKind),
 }
 
 /// Draws the panel.
@@ -41,36 +59,32 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     };
     let swaps = workbench.scenes.swaps();
     panel.rows.refresh(&scene.world, swaps);
-    let selection = &mut workbench.selection;
-    selection.refresh(scene, swaps);
+    workbench.selection.refresh(scene, swaps);
     let height = (ui.available_height() * 0.3).max(60.0);
-    if let Some((entity, how)) = panel.rows.show(ui, scene, selection, height) {
-        panel.refused = None;
-        match how {
-            Choice::Only => selection.set(scene, [entity]),
-            Choice::Toggle => selection.toggle(scene, entity),
-            Choice::UpTo => selection.add(scene, panel.rows.between(selection.last(), entity)),
-        }
+    let deed = panel.rows.show(ui, scene, &workbench.selection, height);
+    if let Some(deed) = deed {
+        do_in_list(editor, deed);
     }
     ui.separator();
-    let selected = selection.last();
-    if selection.len() > 1 {
-        let text = format!(
-            "{} entities are chosen; these are the fields of the last.",
-            selection.len()
+    let chosen: Vec<Entity> = editor.workbench.selection.entities().collect();
+    if chosen.len() > 1 {
+        let mut text = format!(
+            "{} entities are chosen; these are the fields that all have, with the values of the last.",
+            chosen.len()
         );
+        if chosen.len() > several::COMPARED {
+            text += " It is not looked whether the values differ.";
+        }
         ui.label(RichText::new(text).weak());
     }
-    if let Some(entity) = selected {
-        heading(editor, ui, entity, &mut wish);
-    }
+    heading::show(editor, ui, &chosen, &mut wish);
     let scroll = ScrollArea::vertical().id_salt("fields").auto_shrink(false);
     scroll.show(ui, |ui| {
-        if let Some(entity) = selected {
-            components(editor, ui, entity, &mut wish);
-        } else {
+        if chosen.is_empty() {
             let text = "Choose an entity to see its components and to change them by hand.";
             ui.label(RichText::new(text).weak());
+        } else {
+            components(editor, ui, &chosen, &mut wish);
         }
         waiting(editor, ui, &mut wish);
     });
@@ -79,35 +93,159 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
+/// Does what a menu or a key asks for of what is chosen.
+pub fn perform(editor: &mut Editor, action: Action) {
+    let workbench = &mut editor.workbench;
+    let chosen: Vec<Entity> = workbench.selection.entities().collect();
+    let world = workbench.scenes.scene().map(|scene| &scene.world);
+    let result = match action {
+        Action::Create(kind) => workbench.create(kind),
+        Action::Duplicate => workbench.duplicate_chosen(),
+        Action::Delete => workbench.delete_chosen(),
+        Action::Detach => workbench.put_below(&chosen, None),
+        Action::Hide => {
+            let shown = world.is_some_and(|world| {
+                let mut all = chosen.iter();
+                all.any(|entity| is_shown(world, *entity) == Some(true))
+            });
+            workbench.show_entities(&chosen, !shown)
+        }
+        Action::Lock => {
+            let free = world.is_some_and(|world| chosen.iter().any(|e| !is_locked(world, *e)));
+            workbench.lock_entities(&chosen, free)
+        }
+        Action::Rename if !chosen.is_empty() => {
+            editor.entities.rename = true;
+            editor.show(Panel::Entities);
+            return;
+        }
+        _ => Ok(()),
+    };
+    tell(editor, result);
+}
+
+/// Says what could not be done, in the panel and, where that is hidden, in the log.
+fn tell(editor: &mut Editor, result: Result<(), String>) {
+    if let Err(why) = &result {
+        editor.workbench.log.error(sentence(why));
+    }
+    editor.entities.refused = result.err();
+}
+
+fn do_in_list(editor: &mut Editor, deed: Deed) {
+    let workbench = &mut editor.workbench;
+    let Some(scene) = workbench.scenes.scene() else {
+        return;
+    };
+    // What is chosen goes along with the one that was clicked.
+    let together = |entity: Entity| -> Vec<Entity> {
+        match workbench.selection.contains(entity) {
+            true => workbench.selection.entities().collect(),
+            false => vec![entity],
+        }
+    };
+    let result = match deed {
+        Deed::Choose(entity, how) => {
+            let selection = &mut workbench.selection;
+            match how {
+                Choice::Only => selection.set(scene, [entity]),
+                Choice::Toggle => selection.toggle(scene, entity),
+                Choice::UpTo => {
+                    let rows = editor.entities.rows.between(selection.last(), entity);
+                    selection.add(scene, rows);
+                }
+            }
+            Ok(())
+        }
+        Deed::Rename(entity) => {
+            workbench.selection.set(scene, [entity]);
+            editor.entities.rename = true;
+            Ok(())
+        }
+        Deed::Show(entity, on) => {
+            let all = together(entity);
+            workbench.show_entities(&all, on)
+        }
+        Deed::Lock(entity, on) => {
+            let all = together(entity);
+            workbench.lock_entities(&all, on)
+        }
+        Deed::Put(entities, to) => workbench.put_below(&entities, to),
+    };
+    tell(editor, result);
+}
+
 fn grant(editor: &mut Editor, ui: &Ui, wish: Wish) {
     let workbench = &mut editor.workbench;
-    match wish {
-        Wish::Set(path, value) => {
-            let Some(entity) = workbench.selection.last() else {
+    let result = match wish {
+        Wish::Set {
+            path,
+            kind,
+            field,
+            from,
+            to,
+        } => {
+            let Some(scene) = workbench.scenes.scene() else {
                 return;
             };
-            let result = workbench.set_field(entity, path, value);
+            let chosen: Vec<Entity> = workbench.selection.entities().collect();
+            let fields = chosen.iter().filter_map(|entity| {
+                let own = scene.world.field_at(*entity, kind, field)?;
+                let value = several::carried_over(&from, &to, &own);
+                Some((*entity, path, value))
+            });
+            let fields: Vec<(Entity, &str, Value)> = fields.collect();
+            let what = match chosen.as_slice() {
+                [one] => format!("{path} of {}", name_of(scene, *one)),
+                all => format!("{path} of {} entities", all.len()),
+            };
+            let result = workbench.set_fields(&what, &fields);
+            // While a slider is dragged the same would stand in the log many times.
             editor.entities.refused = result.err();
+            return;
         }
-        Wish::Reset(entity, path) => workbench.reset_field(&entity, &path),
-        Wish::ResetEntity(entity) => workbench.reset_entity(&entity),
-        Wish::ResetAll => workbench.reset_all_fields(),
-        Wish::Copy(text) => ui.ctx().copy_text(text),
-    }
+        Wish::Reset(names, path) => {
+            workbench.reset_fields(&names, path.as_deref());
+            Ok(())
+        }
+        Wish::ResetAll => {
+            workbench.reset_all_fields();
+            Ok(())
+        }
+        Wish::Copy(text) => {
+            ui.ctx().copy_text(text);
+            Ok(())
+        }
+        Wish::Rename(name) => workbench.rename_chosen(&name),
+        Wish::Add(kind) => workbench.add_component(kind),
+        Wish::Drop(kind) => workbench.drop_component(kind),
+    };
+    tell(editor, result);
 }
 
 /// What concerns all that was changed by hand.
 fn over_all(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
     let overlays = editor.workbench.overlays_now();
     let count = overlays.map_or(0, |overlays| overlays.iter().count());
+    let edits = overlays.map_or(0, |overlays| overlays.edits().len());
     ui.horizontal_wrapped(|ui| {
-        if count == 0 {
+        if count == 0 && edits == 0 {
             // In the same place, so that nothing moves under who drags the first field.
             ui.label(RichText::new("No field is changed by hand").weak());
             return;
         }
         let fields = if count == 1 { "field" } else { "fields" };
-        ui.label(format!("{count} {fields} changed by hand"));
+        let mut text = format!("{count} {fields} changed by hand");
+        if edits > 0 {
+            let times = if edits == 1 { "once" } else { "times" };
+            let number = if edits == 1 {
+                String::new()
+            } else {
+                format!("{edits} ")
+            };
+            text += &format!(", the structure {number}{times}");
+        }
+        ui.label(text);
         let about = "Lines for the end of the scene's script that do the same";
         if ui
             .small_button("Copy all as script")
@@ -122,54 +260,43 @@ fn over_all(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
     });
 }
 
-/// The entity's name, and why it can't be changed.
-fn heading(editor: &Editor, ui: &mut Ui, entity: Entity, wish: &mut Option<Wish>) {
-    let workbench = &editor.workbench;
-    let Some(scene) = workbench.scenes.scene() else {
-        return;
-    };
-    let name = name_of(scene, entity);
-    ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(list::title(&name, entity)).strong());
-        let overlays = workbench.overlays_now();
-        let changed = overlays.is_some_and(|overlays| overlays.iter().any(|(e, ..)| e == name));
-        if changed && ui.small_button("Reset entity").clicked() {
-            *wish = Some(Wish::ResetEntity(name));
-        }
-    });
-    if let Err(why) = scene.keeps_by_name(entity) {
-        ui.label(RichText::new(field::sentence(&why)).color(Palette::of(ui).warning));
-    }
-    if let Some(refused) = &editor.entities.refused {
-        ui.label(RichText::new(field::sentence(refused)).color(Palette::of(ui).error));
-    }
-}
-
 fn name_of(scene: &lightbench::script::Scene, entity: Entity) -> String {
     let name: Option<Name> = scene.world.get(entity);
     name.map_or_else(String::new, |name| name.text)
 }
 
-/// The components of an entity with all their fields.
-fn components(editor: &Editor, ui: &mut Ui, entity: Entity, wish: &mut Option<Wish>) {
+/// The components that all have, with all their fields.
+fn components(editor: &Editor, ui: &mut Ui, chosen: &[Entity], wish: &mut Option<Wish>) {
     let workbench = &editor.workbench;
-    let Some(scene) = workbench.scenes.scene() else {
+    let (Some(scene), Some(&last)) = (workbench.scenes.scene(), chosen.last()) else {
         return;
     };
-    let keeps = scene.keeps_by_name(entity);
-    let name = name_of(scene, entity);
-    for kind in scene.world.components_of(entity) {
+    let keeps = scene.keep_names(chosen);
+    let names: Vec<String> = chosen.iter().map(|e| name_of(scene, *e)).collect();
+    let name = name_of(scene, last);
+    for kind in scene.world.components_of(last) {
         let info = kind.info();
-        if info.role == Role::Hidden {
+        let has = |entity: &Entity| scene.world.has_component(*entity, kind);
+        if info.role == Role::Hidden || !chosen.iter().all(has) {
             continue;
         }
         ui.add_space(4.0);
-        ui.label(RichText::new(info.name).color(Palette::of(ui).accent))
-            .on_hover_text(field::one_line(info.doc));
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(info.name).color(Palette::of(ui).accent))
+                .on_hover_text(field::one_line(info.doc));
+            if !info.hidden() && kind != ComponentKind::Name {
+                let button = ui.small_button("Remove");
+                let label = format!("Remove {}", info.name);
+                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
+                if button.clicked() {
+                    *wish = Some(Wish::Drop(kind));
+                }
+            }
+        });
         for (index, field) in info.fields.iter().enumerate() {
             let (Some(path), Some(value)) = (
                 field_path(kind, field),
-                scene.world.field_at(entity, kind, index),
+                scene.world.field_at(last, kind, index),
             ) else {
                 continue;
             };
@@ -180,14 +307,23 @@ fn components(editor: &Editor, ui: &mut Ui, entity: Entity, wish: &mut Option<Wi
                 info: field,
                 path,
                 value: &value,
+                differs: several::differ(scene, chosen, kind, index, &value),
                 overlay: overlays.and_then(|overlays| overlays.get(&name, path)),
                 refused: keeps.as_ref().err().map(String::as_str),
             };
-            match ui.push_id((entity, path), |ui| row.show(ui)).inner {
+            match ui.push_id((last, path), |ui| row.show(ui)).inner {
                 None => {}
-                Some(field::Done::Set(value)) => *wish = Some(Wish::Set(path, value)),
+                Some(field::Done::Set(to)) => {
+                    *wish = Some(Wish::Set {
+                        path,
+                        kind,
+                        field: index,
+                        from: value,
+                        to,
+                    });
+                }
                 Some(field::Done::Reset) => {
-                    *wish = Some(Wish::Reset(name.clone(), path.to_owned()));
+                    *wish = Some(Wish::Reset(names.clone(), Some(path.to_owned())));
                 }
                 Some(field::Done::Copy) => {
                     *wish = line(&name, path, &value).map(Wish::Copy);
@@ -203,7 +339,8 @@ fn waiting(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
         return;
     };
     let mut all = overlays.waiting().peekable();
-    if all.peek().is_none() {
+    let mut edits = overlays.edits().filter(|(_, waits)| *waits).peekable();
+    if all.peek().is_none() && edits.peek().is_none() {
         return;
     }
     ui.add_space(8.0);
@@ -211,13 +348,17 @@ fn waiting(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
         "Changed by hand, but the entity or its component is not there. The change is laid on when it \
          comes back.",
     );
+    for (edit, _) in edits {
+        ui.label(edit.words());
+    }
     for (entity, path, overlay) in all {
         ui.push_id((entity, path), |ui| {
             ui.horizontal(|ui| {
                 ui.label(format!("{entity}: {path}"));
                 ui.label(RichText::new(field::text_of(&overlay.value)).monospace());
                 if ui.small_button("Forget").clicked() {
-                    *wish = Some(Wish::Reset(entity.to_owned(), path.to_owned()));
+                    let names = vec![entity.to_owned()];
+                    *wish = Some(Wish::Reset(names, Some(path.to_owned())));
                 }
             });
         });

@@ -9,6 +9,7 @@ use super::keys::{self, Pressed};
 use super::{Frame, LENGTH, Part, Tool};
 use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
+use crate::ui::workbench::structure::is_locked;
 
 /// An entity as it was when the drag began.
 struct Start {
@@ -52,6 +53,7 @@ impl Drag {
         let scene = workbench.scenes.scene();
         let scene = scene.ok_or_else(|| "no scene is loaded".to_owned())?;
         let mut starts = Vec::new();
+        let mut locked = false;
         for entity in workbench.selection.entities() {
             // What hangs on something that is chosen goes along with it.
             let goes_along =
@@ -60,6 +62,10 @@ impl Drag {
             let (Some(transform), false) = (transform, goes_along) else {
                 continue;
             };
+            if is_locked(&scene.world, entity) {
+                locked = true;
+                continue;
+            }
             scene.keeps_by_name(entity)?;
             let parent = scene.world.parent(entity);
             let above = parent.and_then(|parent| scene.world.get::<WorldMatrix>(parent));
@@ -68,6 +74,9 @@ impl Drag {
                 transform,
                 above: above.map_or(Affine3A::IDENTITY, |above| above.matrix),
             });
+        }
+        if locked && starts.is_empty() {
+            return Err("what is chosen is locked: unlock it in the list of entities".to_owned());
         }
         let amount = match editor.viewport.handles.tool {
             Tool::Scale => Amount::Along(1.0),

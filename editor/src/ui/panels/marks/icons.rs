@@ -9,6 +9,7 @@ use lightbench::world::{Camera, Entity, Light, LightKind, WorldMatrix};
 use super::shapes::{circle, line};
 use crate::ui::lens::Lens;
 use crate::ui::workbench::selection::Selection;
+use crate::ui::workbench::structure::is_locked;
 
 /// Icons that are drawn; a scene may have a hundred thousand lights.
 const MOST: usize = 2000;
@@ -39,9 +40,10 @@ fn all<'a>(scene: &'a Scene, lens: &'a Lens) -> impl Iterator<Item = (Entity, bo
     .take(MOST)
 }
 
-/// The icon under a place of the screen.
+/// The icon under a place of the screen, of what is not locked.
 pub fn icon_at(scene: &Scene, lens: &Lens, at: Pos2) -> Option<Entity> {
     all(scene, lens)
+        .filter(|(entity, ..)| !is_locked(&scene.world, *entity))
         .map(|(entity, _, place)| (entity, place.distance(at)))
         .filter(|(_, distance)| *distance <= RADIUS + 2.0)
         .min_by(|(_, a), (_, b)| a.total_cmp(b))

@@ -32,6 +32,9 @@ pub struct Look {
 /// Text smaller than this is left out, points.
 const SMALLEST: f32 = 5.0;
 
+/// The least size of a pass's name, points.
+const NAME: f32 = 8.5;
+
 /// Draws everything. Returns what was clicked.
 pub fn graph(editor: &Editor, ui: &mut Ui, rect: Rect, look: &Look) -> Option<Picked> {
     let panel = &editor.passes;
@@ -229,7 +232,14 @@ fn pass(
             (size * zoom, color),
         );
     };
-    left(6.0, &format!("{} {}", index + 1, row.name), 13.0, strong);
+    // The name stays when all else has become too small.
+    let name = format!("{} {}", index + 1, row.name);
+    if zoom * 13.0 < NAME {
+        let middle = area.left_center() + vec2(3.0, 0.0);
+        text(&clip, middle, Align2::LEFT_CENTER, &name, (NAME, strong));
+        return;
+    }
+    left(6.0, &name, 13.0, strong);
     left(23.0, row.kind, 10.5, weak);
     if left_out {
         left(42.0, "left out: nobody uses", 11.0, weak);

@@ -330,17 +330,24 @@ mod tests {
     }
 
     #[test]
-    fn a_deferred_frame_has_no_crossing() {
-        // G-buffer; lights; transparent; output.
-        let resources = [
+    fn a_deferred_frame_has_no_crossing_but_where_depth_goes_past_the_lights() {
+        // G-buffer; lights; output.
+        let mut resources = vec![
             resource(&[0, 1]),
             resource(&[0, 1]),
-            resource(&[0, 1, 2]),
-            resource(&[1, 2, 3]),
-            resource(&[3]),
+            resource(&[0, 1]),
+            resource(&[1, 2]),
+            resource(&[2]),
         ];
-        let layout = laid_out(4, &resources);
+        let layout = laid_out(3, &resources);
         assert_eq!((layout.crossings, drawn_crossings(&layout)), (0, 0));
+        // A pass behind the lights adds to their light and tests depth: whichever of the two lanes is
+        // the upper one, a line to the other crosses it.
+        resources[2] = resource(&[0, 1, 2]);
+        resources[3] = resource(&[1, 2, 3]);
+        resources[4] = resource(&[3]);
+        let layout = laid_out(4, &resources);
+        assert_eq!((layout.crossings, drawn_crossings(&layout)), (1, 1));
         // The depth that goes past the lights lies below what ends there.
         assert!(layout.lanes[2].row > layout.lanes[0].row);
         // What begins when all else has ended is high up again.

@@ -23,6 +23,9 @@ const SIZES: Sizes = Sizes {
     label: 20.0,
 };
 
+/// The least zoom at which all words can be read.
+const READABLE: f32 = 0.65;
+
 /// The least and the greatest zoom.
 const ZOOMS: (f32, f32) = (0.1, 4.0);
 
@@ -37,8 +40,8 @@ pub struct PassGraph {
     zoom: f32,
     /// Where the graph's corner is, from the panel's.
     pan: Vec2,
-    /// Whether all of it shall be shown, as when it is another graph.
-    fit: bool,
+    /// Whether it is another graph, whose beginning is to be shown.
+    is_new: bool,
     selected: Option<Picked>,
 }
 
@@ -62,7 +65,7 @@ impl PassGraph {
         self.pipeline.clone_from(&desc.name);
         self.passes = desc.passes.len();
         self.nodes = nodes;
-        self.fit = true;
+        self.is_new = true;
     }
 
     /// Shows all of it in a place.
@@ -72,7 +75,16 @@ impl PassGraph {
         let zoom = (room.x / size.x).min(room.y / size.y);
         self.zoom = zoom.clamp(ZOOMS.0, 1.0);
         self.pan = (rect.size() - size * self.zoom) * 0.5;
-        self.fit = false;
+    }
+
+    /// Shows all of it, or its beginning where all would be too small to read.
+    fn begin_in(&mut self, rect: Rect) {
+        self.is_new = false;
+        self.fit_to(rect);
+        if self.zoom < READABLE {
+            self.zoom = READABLE;
+            self.pan = vec2(8.0, 8.0);
+        }
     }
 
     /// Zooms about a place of the panel, which stays where it is.
@@ -93,18 +105,21 @@ impl PassGraph {
 
 /// Draws the graph, and does what clicks ask for.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    controls(editor, ui);
+    let fit = controls(editor, ui);
     let size = ui.available_size().max(vec2(1.0, 1.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Graph"));
     let graph = &mut editor.passes.graph;
-    if graph.fit || graph.zoom <= 0.0 {
+    if graph.is_new || graph.zoom <= 0.0 {
+        graph.begin_in(rect);
+    }
+    if fit {
         graph.fit_to(rect);
     }
     graph.pan += response.drag_delta();
     if let Some(at) = response.hover_pos() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-        let factor = (scroll / 200.0).exp() * pinch;
+        let factor = (scroll / 400.0).exp() * pinch;
         if factor != 1.0 {
             graph.zoom_about(at - rect.min, factor);
         }
@@ -127,14 +142,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-fn controls(editor: &mut Editor, ui: &mut Ui) {
+/// Draws what stands above the graph. Says whether all of it shall be shown.
+fn controls(editor: &mut Editor, ui: &mut Ui) -> bool {
     let palette = Palette::of(ui);
     let center = ui.available_size() * 0.5;
     let graph = &mut editor.passes.graph;
     ui.horizontal(|ui| {
-        if ui.button("Fit").on_hover_text("Or double-click").clicked() {
-            graph.fit = true;
-        }
+        let fit = ui.button("Fit").on_hover_text("Or double-click").clicked();
         for (sign, factor) in [("+", 1.25), ("-", 0.8)] {
             if ui.button(sign).on_hover_text("Or the wheel").clicked() {
                 graph.zoom_about(center, factor);
@@ -146,7 +160,9 @@ fn controls(editor: &mut Editor, ui: &mut Ui) {
         if crossings > 0 {
             ui.weak(format!("{crossings} crossings"));
         }
-    });
+        fit
+    })
+    .inner
 }
 
 /// Marks what was clicked, and shows it in the panel Targets.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use lightbench::render::inspect::{Attention, Combination, Combiner};
 use lightbench::render::{Place, Problem, RenderError, View};
 
-use super::{Made, Mode};
+use super::{Made, Mode, Waiting};
 use crate::ui::workbench::Workbench;
 
 impl Workbench {
@@ -38,16 +38,41 @@ impl Workbench {
         }
     }
 
-    /// Draws with B the moment that A was to draw. `index` is what A's shaders saw as `frame_index`.
+    /// A was to draw a moment, at which its shaders saw `index` as `frame_index`: B draws the same one, as
+    /// soon as the device has room for it.
     pub(in crate::ui::workbench) fn redraw_other(
         &mut self,
-        view: &View,
+        view: View,
         size: (u32, u32),
         index: u32,
     ) {
         if !self.comparing.is_on {
             return;
         }
+        self.comparing.waiting = Some(Waiting {
+            view,
+            size,
+            index,
+            // A that failed has drawn nothing of this moment.
+            is_whole: self.renderer.frame_index() != index,
+        });
+        self.go_on_with_other();
+    }
+
+    /// Draws B where it waits and the device has room.
+    pub(in crate::ui::workbench) fn go_on_with_other(&mut self) {
+        if !self.has_room() {
+            return;
+        }
+        if let Some(waiting) = self.comparing.waiting.take() {
+            self.draw_other(&waiting);
+        }
+    }
+
+    fn draw_other(&mut self, waiting: &Waiting) {
+        let Waiting {
+            view, size, index, ..
+        } = *waiting;
         let time = self.clock.time();
         let comparing = &mut self.comparing;
         let (Some(side), Some(scene)) = (&mut comparing.side, self.scenes.scene_mut()) else {
@@ -60,9 +85,6 @@ impl Workbench {
         let Some(pipeline) = side.pipelines.shown_pipeline() else {
             return;
         };
-        // A that failed has drawn nothing of this moment.
-        let after = self.renderer.frame_index();
-        comparing.is_whole = after != index;
         let frame = self.renderer.next_frame();
         self.renderer.set_frame_index(index);
         // What is looked into is A.
@@ -70,7 +92,7 @@ impl Workbench {
         let (world, assets) = (&mut scene.world, &scene.assets);
         let result = self
             .renderer
-            .render(world, assets, pipeline, view, size, time);
+            .render(world, assets, pipeline, &view, size, time);
         let failed = match result {
             Ok(statistics) => {
                 side.timings.submitted(frame, statistics);
@@ -82,6 +104,7 @@ impl Workbench {
                     comparing.frames.pop_front();
                 }
                 comparing.pairs += 1;
+                comparing.is_whole = waiting.is_whole;
                 None
             }
             Err(RenderError::Gpu(error)) => Some(error),

@@ -212,6 +212,7 @@ impl Workbench {
         let side = comparing.side.as_ref().filter(|_| comparing.is_on)?;
         let size = self.drawn_size()?;
         let fits = side.size == Some(size) && self.drawn_scale() == Some(1.0);
+        let fits = fits && !comparing.is_waiting();
         let is_known = judge.taken == Some(comparing.pairs);
         if !fits || !comparing.is_whole || judge.is_busy() || is_known {
             return None;

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use lightbench::render::inspect::{Combination, Combiner};
 use lightbench::render::queries::Measured;
-use lightbench::render::{Problem, Problems};
+use lightbench::render::{Problem, Problems, View};
 
 use self::judging::Judge;
 use self::side::Side;
@@ -131,11 +131,27 @@ pub struct Comparing {
     judge: Judge,
     /// How many pairs of pictures were drawn.
     pairs: u64,
+    /// The moment that A has drawn and B has not.
+    waiting: Option<Waiting>,
     /// Whether both pictures of the last pair show the same moment.
     is_whole: bool,
     /// The frames of B that were submitted and not yet measured.
     frames: VecDeque<u32>,
     problem: Option<Problem>,
+}
+
+/// A moment that B is to draw. The scene stands still until then.
+///
+/// A software driver does one frame after another, and who submits the next one waits for it, with all
+/// widgets. So B is drawn once the device is done with A, and its times are its own.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    view: View,
+    size: (u32, u32),
+    /// What shaders see as `frame_index`.
+    index: u32,
+    /// Whether A has drawn it.
+    is_whole: bool,
 }
 
 /// What a combined picture was made from.
@@ -162,6 +178,7 @@ impl Default for Comparing {
             made_from: None,
             judge: Judge::default(),
             pairs: 0,
+            waiting: None,
             is_whole: false,
             frames: VecDeque::new(),
             problem: None,
@@ -180,6 +197,16 @@ impl Comparing {
         self.side.as_ref()
     }
 
+    /// Whether A has drawn a moment that B has not: until then the scene stands still.
+    pub fn is_waiting(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// The scene is another one: what B has not drawn, it need not draw any more.
+    pub(super) fn wait_no_more(&mut self) {
+        self.waiting = None;
+    }
+
     /// How many pairs of pictures were drawn since the start.
     pub fn pairs(&self) -> u64 {
         self.pairs
@@ -194,6 +221,13 @@ impl Comparing {
         compiled
             .chain(drawn)
             .chain(self.problem.as_ref().filter(|_| self.is_on))
+    }
+
+    /// Milliseconds that the device needs for B in addition to A.
+    pub(super) fn beside_ms(&self) -> f64 {
+        let side = self.side.as_ref().filter(|_| self.is_on);
+        let last = side.and_then(|side| side.timings.gpu_ms.values().last());
+        last.unwrap_or(0.0)
     }
 
     /// The shaders of the program itself have changed.
@@ -259,6 +293,7 @@ impl Workbench {
         comparing.combiner = None;
         comparing.shown = None;
         comparing.made_from = None;
+        comparing.waiting = None;
         comparing.judge.give_up();
         comparing.frames.clear();
     }
@@ -318,6 +353,7 @@ impl Workbench {
             return;
         }
         std::mem::swap(&mut self.pipelines, &mut side.pipelines);
+        self.comparing.waiting = None;
         // Frames on their way belong to the other side now.
         self.timings.reset();
         side.timings.reset();
@@ -392,7 +428,7 @@ impl Workbench {
                 .then(|| flicker.advance(now))
                 .flatten(),
             (comparing.judge.is_busy() || side.timings.is_waiting()).then_some(SOON),
-            side.pipelines.is_warming().then_some(DEVICE),
+            (side.pipelines.is_warming() || comparing.is_waiting()).then_some(DEVICE),
             side.pipelines.is_busy().then_some(PROGRESS),
             self.wants_judgement(now),
         ];

@@ -98,7 +98,7 @@ pub(super) fn thumbnail(picture: &LdrImage) -> LdrImage {
                 count += 1;
             }
         }
-        sums.map(|sum| (sum / count.max(1)) as u8)
+        sums.map(|sum| ((sum + count / 2) / count.max(1)) as u8)
     })
 }
 

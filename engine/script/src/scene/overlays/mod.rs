@@ -10,18 +10,20 @@ mod structure;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
+use lightbench_world::glam::Vec3;
 use lightbench_world::reflect::{FieldInfo, Role};
 use lightbench_world::{ComponentKind, Entity, Name, Tick, Value, ValueType};
 
 use super::Scene;
+use super::data::Data;
 use super::fields;
 use super::tables::{self, Field};
 pub use lines::{degrees_of, line, rotation_of};
 pub(crate) use lines::{spell_point, spell_single};
 use structure::Done;
-pub use structure::{Edit, LOCKED, NewKind, Who};
+pub use structure::{Edit, LOCKED, NewKind, Who, topmost};
 
 /// One value that a person has set.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +38,8 @@ pub struct Overlay {
     /// What the field holds. It differs from `value` where the scene does not take that whole.
     in_force: Option<Value>,
     entity: Entity,
+    /// The point to which the entity was kept turned, where the change has ended that.
+    aim: Option<Vec3>,
 }
 
 impl Overlay {
@@ -76,9 +80,7 @@ pub fn editable(kind: ComponentKind, info: &FieldInfo) -> Result<(), &'static st
         return Err("The engine computes it.");
     }
     match info.value_type {
-        _ if kind == ComponentKind::Name => {
-            Err("What is changed by hand is kept by the entity's name, so the name stays.")
-        }
+        _ if kind == ComponentKind::Name => Err("The name is changed in the field above."),
         ValueType::Bool
         | ValueType::Int
         | ValueType::Float
@@ -150,9 +152,48 @@ impl Overlays {
         path: &str,
         value: Value,
     ) -> Result<(), String> {
+        let name = scene.keeps_by_name(entity)?;
+        self.lay(scene, (entity, name), path, value)?;
+        scene.refresh();
+        Ok(())
+    }
+
+    /// Changes fields by hand. Gives how many of them, from the first on.
+    ///
+    /// # Errors
+    /// As [`Overlays::set`], for the field after those.
+    pub fn set_many(
+        &mut self,
+        scene: &mut Scene,
+        fields: &[(Entity, &str, Value)],
+    ) -> (usize, Result<(), String>) {
+        let entities: Vec<Entity> = fields.iter().map(|(entity, ..)| *entity).collect();
+        let names = match scene.keep_names(&entities) {
+            Ok(names) => names,
+            Err(why) => return (0, Err(why)),
+        };
+        let mut result = Ok(());
+        let mut count = 0;
+        for ((entity, path, value), name) in fields.iter().zip(names) {
+            result = self.lay(scene, (*entity, name), path, value.clone());
+            if result.is_err() {
+                break;
+            }
+            count += 1;
+        }
+        scene.refresh();
+        (count, result)
+    }
+
+    fn lay(
+        &mut self,
+        scene: &mut Scene,
+        (entity, name): (Entity, String),
+        path: &str,
+        value: Value,
+    ) -> Result<(), String> {
         let field = tables::field(path).map_err(|mistake| mistake.message)?;
         editable(field.kind, field.info).map_err(str::to_owned)?;
-        let name = scene.keeps_by_name(entity)?;
         let before = scene
             .world
             .field_at(entity, field.kind, field.index)
@@ -160,8 +201,19 @@ impl Overlays {
         if !is_finite(&value) {
             return Err("the number must be finite".to_owned());
         }
+        if path == "camera.far"
+            && let Some(Value::Float(near)) = scene.world.get_field(entity, "Camera", "near")
+            && matches!(value, Value::Float(far) if far <= near)
+        {
+            // It would pull the near plane along, which nobody would give back.
+            return Err(format!(
+                "the near plane is at {near} m: bring it nearer first"
+            ));
+        }
+        let aim = scene.aim_of(entity);
         scene.write_by_hand(entity, field, &value)?;
         let overlay = Overlay {
+            aim: scene.lost_aim(entity, aim),
             in_force: scene.world.field_at(entity, field.kind, field.index),
             value,
             script: Some(before),
@@ -172,14 +224,14 @@ impl Overlays {
             .entry((name, path.to_owned()))
             .and_modify(|old| {
                 let script = old.script.take();
-                let contested = old.contested;
+                let (contested, aim) = (old.contested, old.aim);
                 *old = overlay.clone();
+                old.aim = overlay.aim.or(aim);
                 if script.is_some() {
                     (old.script, old.contested) = (script, contested);
                 }
             })
             .or_insert(overlay);
-        scene.refresh();
         Ok(())
     }
 
@@ -262,6 +314,7 @@ impl Overlay {
             script: None,
             in_force: None,
             entity: Entity::NONE,
+            aim: None,
             ..self
         }
     }
@@ -294,9 +347,11 @@ impl Overlay {
         self.contested |= known;
         self.script = Some(now);
         let value = self.value.clone();
+        let aim = scene.aim_of(self.entity);
         // A value that was taken once is out of range now only where the field itself has changed.
         let written = scene.write_by_hand(self.entity, field, &value).is_ok();
         self.in_force = scene.world.field_at(self.entity, field.kind, field.index);
+        self.aim = scene.lost_aim(self.entity, aim).or(self.aim);
         written
     }
 
@@ -306,6 +361,13 @@ impl Overlay {
         };
         // What has gone needs nothing back.
         let _ = scene.write_by_hand(self.entity, field, &script);
+        if let Some(aim) = self.aim.filter(|_| scene.world.contains(self.entity)) {
+            // It was placed before too.
+            let _turned = scene.on_data(|data| {
+                data.aims.insert(self.entity, aim);
+                data.place(self.entity, |_| {})
+            });
+        }
     }
 }
 
@@ -338,6 +400,54 @@ impl Scene {
                 name.text
             ))
         }
+    }
+
+    /// The names by which what a person changes on entities is kept. All names are walked once, however
+    /// many entities there are.
+    ///
+    /// # Errors
+    /// As [`Scene::keeps_by_name`], for the first of them that can't be found by a name.
+    pub fn keep_names(&self, entities: &[Entity]) -> Result<Vec<String>, String> {
+        /// So many are looked for one by one.
+        const FEW: usize = 4;
+        if entities.len() <= FEW {
+            return entities.iter().map(|e| self.keeps_by_name(*e)).collect();
+        }
+        let names = self.world.columns::<Name>();
+        let mut first: HashMap<&str, Entity> = HashMap::with_capacity(names.len());
+        for (text, entity) in names.text().iter().zip(names.entities()) {
+            let known = first.entry(text).or_insert(*entity);
+            *known = (*known).min(*entity);
+        }
+        let keep = |entity: &Entity| {
+            let own = names.row_of(*entity).map(|row| &names.text()[row]);
+            match own.filter(|own| first.get(own.as_str()) == Some(entity)) {
+                Some(own) if !own.is_empty() && self.default_camera != Some(*entity) => {
+                    Ok(own.clone())
+                }
+                // The sentence that says why not.
+                _ => self.keeps_by_name(*entity),
+            }
+        };
+        entities.iter().map(keep).collect()
+    }
+
+    /// Lends the world to something that works on what scripts work on.
+    fn on_data<T>(&mut self, work: impl FnOnce(&mut Data) -> T) -> T {
+        self.swap();
+        let result = work(&mut self.stage.lock());
+        self.swap();
+        result
+    }
+
+    /// The point to which an entity is kept turned.
+    fn aim_of(&self, entity: Entity) -> Option<Vec3> {
+        self.stage.lock().aims.get(&entity).copied()
+    }
+
+    /// The point to which an entity was kept turned until now.
+    fn lost_aim(&self, entity: Entity, before: Option<Vec3>) -> Option<Vec3> {
+        before.filter(|_| self.aim_of(entity).is_none())
     }
 
     /// Writes a field as `set` of a script does.

@@ -84,12 +84,17 @@ impl Who {
     /// The same without those that hang on others of them.
     #[must_use]
     pub fn topmost(world: &World, entities: &[Entity]) -> Vec<Self> {
-        let chosen: HashSet<Entity> = entities.iter().copied().collect();
-        let above = |entity| std::iter::successors(world.parent(entity), |up| world.parent(*up));
-        let top = entities.iter().copied();
-        let top: Vec<Entity> = top
-            .filter(|entity| !above(*entity).any(|above| chosen.contains(&above)))
-            .collect();
-        Self::of(world, &top)
+        Self::of(world, &topmost(world, entities))
     }
+}
+
+/// Entities that hang on none of the others.
+#[must_use]
+pub fn topmost(world: &World, entities: &[Entity]) -> Vec<Entity> {
+    let all: HashSet<Entity> = entities.iter().copied().collect();
+    let above = |entity| std::iter::successors(world.parent(entity), |up| world.parent(*up));
+    let entities = entities.iter().copied();
+    entities
+        .filter(|entity| !above(*entity).any(|above| all.contains(&above)))
+        .collect()
 }

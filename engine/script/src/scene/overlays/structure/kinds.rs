@@ -162,12 +162,4 @@ impl Scene {
             meshes.collect()
         })
     }
-
-    /// Lends the world to something that works on what scripts work on.
-    pub(super) fn on_data<T>(&mut self, work: impl FnOnce(&mut Data) -> T) -> T {
-        self.swap();
-        let result = work(&mut self.stage.lock());
-        self.swap();
-        result
-    }
 }

@@ -10,6 +10,7 @@ mod edit;
 mod finding;
 mod inverse;
 mod kinds;
+mod lines;
 mod replay;
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ use std::collections::{HashMap, HashSet};
 use lightbench_world::{Entity, scene_file};
 
 pub use edit::{Edit, Who};
+pub use finding::topmost;
 pub use kinds::NewKind;
 
 use super::{Overlay, Overlays};

@@ -1,0 +1,57 @@
+//! Writing the scene as a file that holds its world.
+
+use std::path::{Path, PathBuf};
+
+use lightbench::script::SCENE_EXTENSION;
+
+use super::Workbench;
+
+/// The folder in which saved scenes lie.
+const FOLDER: &str = "scripts/scenes";
+
+impl Workbench {
+    /// A name for the file of the scene on screen.
+    pub fn name_to_save(&self) -> String {
+        let shown = self.scenes.shown().unwrap_or("scene");
+        let name = shown.rsplit(['/', '\\']).next().unwrap_or(shown);
+        let name = name.split('.').next().unwrap_or(name);
+        format!("{name}_edited")
+    }
+
+    /// Writes the scene as it is now, with all that was changed by hand. A name goes to the project's
+    /// scenes, a path to where it leads. Returns the file.
+    ///
+    /// # Errors
+    /// A sentence that says what is wrong.
+    pub fn save_scene(&mut self, name: &str) -> Result<PathBuf, String> {
+        let name = name.trim();
+        let plain = name.strip_suffix(&format!(".{SCENE_EXTENSION}"));
+        let plain = plain.unwrap_or(name);
+        if plain.is_empty() {
+            return Err("give the file a name".to_owned());
+        }
+        let Some(scene) = self.scenes.scene_mut() else {
+            return Err("no scene is loaded".to_owned());
+        };
+        let update = scene.has_update();
+        let is_path = Path::new(plain).is_absolute();
+        let file = if is_path {
+            let file = PathBuf::from(format!("{plain}.{SCENE_EXTENSION}"));
+            scene.save(&file).map_err(|problem| problem.message)?;
+            file
+        } else {
+            let text = scene.to_text().map_err(|problem| problem.message)?;
+            let path = format!("{FOLDER}/{plain}.{SCENE_EXTENSION}");
+            let written = self.files.write(&path, text.as_bytes());
+            written.map_err(|error| error.to_string())?
+        };
+        self.log.info(format!("Saved as {}.", file.display()));
+        if update {
+            self.log.warn(
+                "The script's `update` is not part of the file: what only it moves will stand still.",
+            );
+        }
+        self.library.refresh(&self.files, &self.wake);
+        Ok(file)
+    }
+}

@@ -1,0 +1,43 @@
+//! Lessons with checked exercises.
+//!
+//! A lesson is a folder: a text, a starter, checks, and a file that says what is asked and what it
+//! gives ([`About`]). [`Lesson::read`] reads it and holds its parts together. [`check()`] draws with what
+//! a student handed in and judges it by the lesson's checks, which are scripts; the [`Outcome`] is data.
+//!
+//! `engine/lab/docs/lessons.md` is the chapter for those who write lessons.
+
+mod answers;
+mod causes;
+mod check;
+mod compare;
+mod constants;
+mod copies;
+mod examiner;
+mod folders;
+mod hand_in;
+mod imports;
+mod model;
+mod outcome;
+mod pictures;
+mod read;
+mod source;
+mod stage;
+mod text;
+mod tokens;
+mod words;
+
+pub use answers::ANSWERS;
+pub use check::{CheckError, CheckEvent, CheckOptions, check};
+pub use compare::MARGIN;
+pub use copies::{CopiedFrom, copied_from, says_the_same};
+pub use folders::{LessonOf, begin, lesson_of, pack};
+pub use hand_in::{HAND_IN, HandInError, HandedIn, hand_in, unpack_hand_in};
+pub use imports::{Import, forbidden, imports};
+pub use model::{About, Constant, Criterion, Figure, KnownMistake, LESSON_FILE, Question, Task};
+pub use outcome::{
+    CriterionOutcome, Finding, OUTCOME_SCHEMA, Outcome, Refusal, RefusalKind, State, TaskOutcome,
+};
+pub use read::{CHECK_FILES, CHECKS, HIDDEN, Lesson, SOLUTION, STARTER};
+pub use source::{LESSONS, Source, find_lesson, list_lessons};
+pub use text::{Link, Listing, Text, has_place, text_file};
+pub use words::{Language, Words};
