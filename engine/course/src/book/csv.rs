@@ -10,7 +10,13 @@ use crate::grading::{Reason, Record};
 pub fn csv(records: &[Record], reasons: &BTreeMap<String, Vec<Reason>>) -> String {
     let tasks = tasks(records);
     let mut head: Vec<String> = [
-        "student", "name", "late", "state", "look_at_it", "points", "of",
+        "student",
+        "name",
+        "late",
+        "state",
+        "look_at_it",
+        "points",
+        "of",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -69,7 +75,11 @@ fn line(cells: &[String]) -> String {
 /// is text: names are what students typed.
 fn quoted(cell: &str) -> String {
     let formula = cell.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    let cell = if formula { format!("'{cell}") } else { cell.to_owned() };
+    let cell = if formula {
+        format!("'{cell}")
+    } else {
+        cell.to_owned()
+    };
     match cell.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", cell.replace('"', "\"\"")),
         false => cell,
@@ -91,7 +101,10 @@ mod tests {
         ];
         let mut reasons = BTreeMap::new();
         let others = vec!["18".to_owned()];
-        reasons.insert("17".to_owned(), vec![Reason::SameId("ada".to_owned(), others)]);
+        reasons.insert(
+            "17".to_owned(),
+            vec![Reason::SameId("ada".to_owned(), others)],
+        );
         let text = csv(&records, &reasons);
         let lines: Vec<&str> = text.split_terminator("\r\n").collect();
         assert_eq!(

@@ -60,7 +60,10 @@ pub fn student_page(page: &Page<'_>) -> String {
         None => page.say("not judged yet", "aún sin evaluar").to_owned(),
     };
     let word = page.say("Points", "Puntos");
-    let _ = writeln!(body, "<p class=\"sum\"><strong>{word}: {points}</strong></p>");
+    let _ = writeln!(
+        body,
+        "<p class=\"sum\"><strong>{word}: {points}</strong></p>"
+    );
     if record.needs_a_person() {
         body += &note(page.say(
             "A person will look at this before it counts.",
@@ -105,7 +108,9 @@ impl Page<'_> {
             text += &note(why);
         }
         let criteria = task.criteria.iter();
-        text += &criteria.map(|criterion| self.criterion(criterion)).collect::<String>();
+        text += &criteria
+            .map(|criterion| self.criterion(criterion))
+            .collect::<String>();
         text
     }
 
@@ -123,14 +128,15 @@ impl Page<'_> {
             criterion.of
         );
         let findings = criterion.findings.iter().filter(|finding| !finding.holds);
-        text += &findings.map(|finding| self.finding(finding)).collect::<String>();
+        text += &findings
+            .map(|finding| self.finding(finding))
+            .collect::<String>();
         text + "</div>\n"
     }
 
     fn finding(&self, finding: &Finding) -> String {
-        let words = |words: &lightbench_lab::lesson::Words| {
-            escaped(words.in_language(self.language))
-        };
+        let words =
+            |words: &lightbench_lab::lesson::Words| escaped(words.in_language(self.language));
         let mut text = format!(
             "<p>{}: {}<br>{}: {}",
             self.say("Expected", "Se esperaba"),

@@ -25,12 +25,13 @@ pub fn overview(
     let mut body = format!("<h1>{}</h1>\n<p>{} hand-ins", escaped(title), records.len());
     if let (Some(least), Some(most)) = (points.first(), points.last()) {
         let middle = points[points.len() / 2];
-        let _ = write!(body, "; points from {least} to {most} of {of}, median {middle}");
+        let _ = write!(
+            body,
+            "; points from {least} to {most} of {of}, median {middle}"
+        );
     }
     body += ".</p>\n";
-    let looks = |record: &&Record| {
-        record.needs_a_person() || reasons.contains_key(&record.student)
-    };
+    let looks = |record: &&Record| record.needs_a_person() || reasons.contains_key(&record.student);
     let (first, rest): (Vec<&Record>, Vec<&Record>) = records.iter().partition(looks);
     for (heading, records) in [("To look at", first), ("The others", rest)] {
         if records.is_empty() {

@@ -84,7 +84,9 @@ pub fn mark(all: &[Marked]) -> BTreeMap<String, Vec<Reason>> {
         others(students, &|others| Reason::SameId((*id).to_owned(), others));
     }
     for ((path, _), students) in &by_file {
-        others(students, &|others| Reason::SameFile((*path).to_owned(), others));
+        others(students, &|others| {
+            Reason::SameFile((*path).to_owned(), others)
+        });
     }
     for one in all {
         if let (Some(says), Some(listed)) = (&one.says, &one.listed)
@@ -115,13 +117,21 @@ mod tests {
     fn the_same_id_and_the_same_file_are_marked_on_all_sides() {
         let mut liar = one("3", "grace", "h3");
         liar.listed = Some("linus".to_owned());
-        let all = [one("1", "ada", "h1"), one("2", "grace", "h1"), liar, one("4", "d", "h4")];
+        let all = [
+            one("1", "ada", "h1"),
+            one("2", "grace", "h1"),
+            liar,
+            one("4", "d", "h4"),
+        ];
         let found = mark(&all);
         let texts = |student: &str| -> Vec<String> {
             let reasons = found.get(student).into_iter().flatten();
             reasons.map(ToString::to_string).collect()
         };
-        assert_eq!(texts("1"), ["a.wgsl is the same, byte for byte, as that of 2"]);
+        assert_eq!(
+            texts("1"),
+            ["a.wgsl is the same, byte for byte, as that of 2"]
+        );
         assert_eq!(
             texts("2"),
             [

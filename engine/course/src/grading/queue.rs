@@ -12,11 +12,12 @@ use std::thread;
 
 use lightbench_assets::Digest;
 use lightbench_assets::files::FileError;
-use lightbench_lab::lesson::{Lesson, Outcome, lesson_of};
+use lightbench_lab::lesson::{Lesson, Outcome};
 
 use super::record::{Ending, RECORD_SCHEMA, Record};
 use crate::archive::{self, unpack};
 use crate::exports::Submission;
+use crate::hand_in::HandedIn;
 use crate::supervise::{Bounds, End, Ended, supervise};
 
 /// The file that a process writes its outcome to.
@@ -104,7 +105,7 @@ pub enum GradeError {
 }
 
 impl GradeError {
-    pub(super) fn disk(path: &Path, source: io::Error) -> Self {
+    pub(crate) fn disk(path: &Path, source: io::Error) -> Self {
         Self::Disk {
             path: path.to_owned(),
             source,
@@ -143,7 +144,12 @@ pub fn grade(
     let done = AtomicUsize::new(0);
     let records: Mutex<BTreeMap<usize, Record>> = Mutex::default();
     let failure: Mutex<Option<GradeError>> = Mutex::default();
-    let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+    let failed = || {
+        failure
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .is_some()
+    };
     let work = || {
         let grader = Grader {
             lesson,
@@ -279,7 +285,14 @@ impl Grader<'_> {
             };
         }
         fs::create_dir_all(&out).map_err(|error| GradeError::disk(&out, error))?;
-        record.id = record.id.take().or_else(|| lesson_of(&work)?.id);
+        if let Some(says) = HandedIn::of(&work)
+            && says.lesson != self.lesson.name
+        {
+            let text = format!("it is a hand-in of the lesson {}", says.lesson);
+            record.ending = Ending::NoSubmission(text);
+            return Ok(());
+        }
+        record.id = record.id.take().or_else(|| HandedIn::of(&work)?.student);
         let assignment = Assignment {
             work,
             out,
@@ -295,7 +308,9 @@ impl Grader<'_> {
         record.memory = ended.memory;
         record.ending = self.ending(&ended, &assignment);
         let lines = String::from_utf8_lossy(&ended.output);
-        let lines = lines.lines().filter_map(|line| line.strip_prefix(NOT_ENFORCED));
+        let lines = lines
+            .lines()
+            .filter_map(|line| line.strip_prefix(NOT_ENFORCED));
         record.not_enforced = lines.map(str::to_owned).collect();
         Ok(())
     }
@@ -316,9 +331,9 @@ impl Grader<'_> {
                 "it was stopped when it had printed more than {} KiB",
                 bounds.output >> 10
             )),
-            End::Crashed(Some(signal)) => {
-                stopped(format!("the process that checked it crashed with signal {signal}"))
-            }
+            End::Crashed(Some(signal)) => stopped(format!(
+                "the process that checked it crashed with signal {signal}"
+            )),
             End::Crashed(None) => stopped("the process that checked it crashed".to_owned()),
             End::Cancelled => Ending::Failed("it was cancelled".to_owned()),
             End::Exited(status) => match self.outcome(assignment) {
