@@ -337,19 +337,19 @@ fn a_new_lesson_runs_as_it_is() {
         (
             "points = 2",
             "points = 0",
-            ["lesson.toml:18", "from 1 to 1000"],
+            ["lesson.toml:21", "from 1 to 1000"],
         ),
         (
             "read = \"ramp\"",
             "read = \"rmap\"",
-            ["lesson.toml:13", "the place `rmap`"],
+            ["lesson.toml:15", "the place `rmap`"],
         ),
         (
             "[\"shaders/lib/exercise.wgsl\"]     #",
             "[\"shaders/lib/other.wgsl\"] #",
             ["lesson.toml:7", "lacks it"],
         ),
-        ("points = 2", "pionts = 2", ["lesson.toml:20", "pionts"]),
+        ("points = 2", "pionts = 2", ["lesson.toml:22", "pionts"]),
     ] {
         assert!(text.contains(from), "{from}");
         project.write(&file, text.replace(from, to));
@@ -370,5 +370,66 @@ fn a_new_lesson_runs_as_it_is() {
         broken.stdout.contains("did you mean `even`"),
         "{}",
         broken.all()
+    );
+}
+
+#[test]
+fn a_shipped_pipeline_under_another_name_gets_nothing() {
+    let project = Project::new();
+    project.run(&["new", "lesson", "90-pipelines"]).succeeded();
+    let lesson = "lessons/90-pipelines";
+    let file = format!("{lesson}/lesson.toml");
+    let text = fs::read_to_string(project.file(&file)).unwrap();
+    let text = text
+        .replace("shaders/lib/exercise.wgsl", "scripts/pipelines/exercise.rhai")
+        .replace(
+            "imports = []",
+            "imports = [\"parts/output\", \"parts/antialiasing\", \"parts/reflection\", \"parts/transparent\", \
+             \"shaders/forward/depth_only.wgsl\", \"shaders/forward/single_pass.wgsl\"]",
+        );
+    project.write(&file, text);
+    let shipped =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../scripts/pipelines/forward_single_pass.rhai");
+    let shipped = fs::read_to_string(shipped).unwrap();
+    // Other names and texts, other numbers, no comments, one statement a line.
+    let disguised: String = shipped
+        .lines()
+        .map(|line| line.split("//").next().unwrap().trim())
+        .map(|line| {
+            line.replace("antialiasing.", "smoothing.")
+                .replace("let antialiasing", "let smoothing")
+        })
+        .map(|line| {
+            line.replace("gather_lights =", "nearby =")
+                .replace("\"hdr\"", "\"sum\"")
+                .replace("-10.0", "-8.0")
+        })
+        .collect::<Vec<_>>()
+        .join("\n");
+    project.write("scripts/pipelines/exercise.rhai", disguised);
+    let outcome = project.run(&["check", lesson, "--work", "."]);
+    assert_eq!(outcome.status, 1, "{}", outcome.all());
+    for part in [
+        "Points: 0 of 2",
+        "the shipped file scripts/pipelines/forward_single_pass.rhai with other names",
+    ] {
+        assert!(
+            outcome.stdout.contains(part),
+            "no `{part}` in {}",
+            outcome.all()
+        );
+    }
+    // What the lesson does not allow is told first.
+    project.write(
+        "scripts/pipelines/exercise.rhai",
+        "import \"parts/g_buffer\" as g;\nlet p = pipeline(\"x\");\np",
+    );
+    let outcome = project.run(&["check", lesson, "--work", "."]);
+    assert!(
+        outcome
+            .stdout
+            .contains("exercise.rhai:1: `parts/g_buffer` may not be used"),
+        "{}",
+        outcome.all()
     );
 }

@@ -51,7 +51,7 @@ mod testing;
 
 pub use experiment::{
     Bound, Chart, ChartCurve, CheckFault, CheckScript, Cost, Data, EXPERIMENTS, Evidence, Examiner,
-    Expected, Given, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan,
+    Expected, Given, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan, Told,
     check_names, experiment_names, run_experiment,
 };
 pub use limits::{GivenLimits, Limits};

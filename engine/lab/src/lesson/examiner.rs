@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_render::TargetImage;
 use lightbench_render::problem::suggestion;
-use lightbench_script::{Bound, Evidence, Examiner, Expected, LaboratoryError};
+use lightbench_script::{Bound, Evidence, Examiner, Expected, LaboratoryError, Told};
 
 use super::compare::{Verdict, compare};
 use super::model::{About, Task};
@@ -207,7 +207,7 @@ impl Inner {
                 mistake,
             } => {
                 let verdict = Verdict { holds, near: false };
-                let mut finding = said(verdict, Words::same(expected), Words::same(found));
+                let mut finding = said(verdict, words(expected), words(found));
                 self.explain(&mut finding, mistake.as_deref())?;
                 Ok(finding)
             }
@@ -299,6 +299,10 @@ impl Inner {
         let known = known.ok_or_else(|| unknown("mistake", id, names()))?;
         Ok((known.says.clone(), known.read.clone()))
     }
+}
+
+fn words(told: Told) -> Words {
+    Words::new(told.en, told.es)
 }
 
 fn said(verdict: Verdict, expected: Words, found: Words) -> Finding {

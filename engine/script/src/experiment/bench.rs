@@ -56,13 +56,13 @@ impl Bench {
     ) -> Result<T, Mistake> {
         let mut laboratory = lock(&self.0.laboratory);
         let result = self.0.watch.free_of_charge(|| work(&mut **laboratory));
-        result.map_err(|error| {
-            lock(&self.0.state).fault = Some(match &error {
-                LaboratoryError::Files(problems) => problems.clone(),
-                other => Problem::new(Place::default(), other.to_string()).into(),
-            });
-            mistake(error)
-        })
+        // What a script caught and went on after is not what ends it.
+        lock(&self.0.state).fault = match &result {
+            Ok(_) => None,
+            Err(LaboratoryError::Files(problems)) => Some(problems.clone()),
+            Err(other) => Some(Problem::new(Place::default(), other.to_string()).into()),
+        };
+        result.map_err(mistake)
     }
 
     /// An image whose texels count as the script's memory: it may hold many.

@@ -30,7 +30,7 @@ use crate::settings::Settings;
 use bench::Bench;
 
 pub use checks::{
-    Bound, CheckFault, CheckScript, Data, Evidence, Examiner, Expected, Given, check_names,
+    Bound, CheckFault, CheckScript, Data, Evidence, Examiner, Expected, Given, Told, check_names,
 };
 pub use laboratory::{
     Chart, ChartCurve, Cost, Laboratory, LaboratoryError, Shot, StudyRow, StudyTask, Task, TimeSpan,

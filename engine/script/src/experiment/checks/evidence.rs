@@ -72,13 +72,22 @@ pub enum Evidence {
     Statement {
         /// Whether it holds.
         holds: bool,
-        /// What was found, as a script writes it.
-        found: String,
+        /// What was found.
+        found: Told,
         /// What should have been.
-        expected: String,
+        expected: Told,
         /// The mistake that is meant where it does not hold.
         mistake: Option<String>,
     },
+}
+
+/// What a check says in words, in each language of the lessons.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Told {
+    /// In English.
+    pub en: String,
+    /// In Spanish.
+    pub es: String,
 }
 
 /// Judges evidence for the criteria of a task, and knows the numbers of a student.

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use lightbench_render::TargetImage;
-use rhai::{Array, Dynamic, EvalAltResult, FnPtr};
+use rhai::{Array, Dynamic, EvalAltResult, FnPtr, Map};
 
-use super::evidence::{Bound, Evidence, Expected};
+use super::evidence::{Bound, Evidence, Expected, Told};
 use super::mistakes::{bound, mistakes, options};
 use super::work::Work;
 use crate::api::{Api, Arguments, Mistake, as_number, spell};
@@ -202,8 +202,8 @@ fn statements(api: &mut Api) {
                 let (found, expected) = (arguments.value(1), arguments.value(2));
                 let evidence = Evidence::Statement {
                     holds: equal(found, expected),
-                    found: shown(found),
-                    expected: shown(expected),
+                    found: told(found),
+                    expected: told(expected),
                     mistake: options.text("mistake")?,
                 };
                 work.judge(&criterion, evidence)
@@ -216,15 +216,16 @@ fn statements(api: &mut Api) {
     ] {
         api.method(
             form,
-            "Whether a condition holds, with what was found and what was expected, to be shown. Option: \
-             `mistake`, the one that is meant where it does not hold.",
+            "Whether a condition holds, with what was found and what was expected, to be shown: values, or \
+             words as `#{ en: \"no lamp\", es: \"ninguna lámpara\" }`. Option: `mistake`, the one that is \
+             meant where it does not hold.",
             |work: Work, arguments| {
                 let criterion = arguments.text(0)?;
                 let options = options(arguments, 4, "holds", &["mistake"])?;
                 let evidence = Evidence::Statement {
                     holds: arguments.switch(1)?,
-                    found: shown(arguments.value(2)),
-                    expected: shown(arguments.value(3)),
+                    found: told(arguments.value(2)),
+                    expected: told(arguments.value(3)),
                     mistake: options.text("mistake")?,
                 };
                 work.judge(&criterion, evidence)
@@ -348,6 +349,19 @@ fn equal(a: &Dynamic, b: &Dynamic) -> bool {
         (Some(a), Some(b)) => a == b,
         _ => shown(a) == shown(b),
     }
+}
+
+/// What a value says in each language: a map has words for them, anything else is the same in all.
+fn told(value: &Dynamic) -> Told {
+    let words = value.read_lock::<Map>().and_then(|map| {
+        let word = |language: &str| map.get(language)?.clone().into_string().ok();
+        let (en, es) = (word("en")?, word("es")?);
+        (map.len() == 2).then_some(Told { en, es })
+    });
+    words.unwrap_or_else(|| Told {
+        en: shown(value),
+        es: shown(value),
+    })
 }
 
 /// A value as a person reads it: texts without quotes, others as a script writes them.

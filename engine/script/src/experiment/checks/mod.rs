@@ -23,7 +23,7 @@ use crate::names::Names;
 use crate::settings::Settings;
 use work::Work;
 
-pub use evidence::{Bound, Data, Evidence, Examiner, Expected};
+pub use evidence::{Bound, Data, Evidence, Examiner, Expected, Told};
 
 /// Why a check did not come to its end.
 #[derive(Clone, Debug, PartialEq, Eq)]
