@@ -7,7 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use cli_support::{Project, run_in};
-use lightbench::lab::lesson::unpack_hand_in;
+use lightbench::course::archive::{Bounds, unpack};
+use lightbench::course::hand_in::HandedIn;
 use tempfile::TempDir;
 
 fn lesson() -> PathBuf {
@@ -231,10 +232,11 @@ fn one_archive_is_handed_in() {
         "{}",
         handed.all()
     );
-    let archive = project.join("01-first-light-ana_.._pérez.tar.gz");
+    let archive = project.join("01-first-light-ana_.._pérez.zip");
     let bytes = fs::read(&archive).unwrap();
     let out = tempfile::tempdir().unwrap();
-    let about = unpack_hand_in(&bytes, out.path()).unwrap();
+    unpack(&archive, &out.path().join("in"), &Bounds::default()).unwrap();
+    let about = HandedIn::of(&out.path().join("in")).unwrap();
     assert_eq!(
         (about.lesson.as_str(), about.points),
         ("01-first-light", 14)
@@ -247,16 +249,16 @@ fn one_archive_is_handed_in() {
         "reports/a.json",
     ] {
         assert_eq!(
-            fs::read(out.path().join(path)).unwrap(),
+            fs::read(out.path().join("in").join(path)).unwrap(),
             fs::read(project.join(path)).unwrap()
         );
     }
     assert!(
-        !out.path().join("README.md").exists(),
+        !out.path().join("in/README.md").exists(),
         "nothing but what is asked for"
     );
-    run_in(&project, &["hand-in", "--out", "again.tar.gz"], &[]).succeeded();
-    assert_eq!(fs::read(project.join("again.tar.gz")).unwrap(), bytes);
+    run_in(&project, &["hand-in", "--out", "again.zip"], &[]).succeeded();
+    assert_eq!(fs::read(project.join("again.zip")).unwrap(), bytes);
 }
 
 #[test]

@@ -97,6 +97,11 @@ enum Command {
     Check(lesson::check::Arguments),
     /// Checks a lesson's work, shows the points, and writes one archive to hand in
     HandIn(lesson::hand_in::Arguments),
+    /// Grades a folder of hand-ins, and makes tables and pages of it
+    Grade(lesson::grade::Arguments),
+    /// Checks a hand-in for `grade`, which starts it
+    #[command(hide = true)]
+    GradeWorker(lesson::worker::Arguments),
     /// Says how far apart two pictures are
     Diff(diff::Arguments),
     /// Writes a scene to a file that holds its entities instead of a script
@@ -148,6 +153,9 @@ fn hush_device_selection() {
 }
 
 fn run(arguments: Arguments) -> anyhow::Result<()> {
+    if let Command::GradeWorker(worker) = &arguments.command {
+        lesson::worker::confine(worker, arguments.project.as_ref())?;
+    }
     if let Some(path) = &arguments.limits {
         let text = std::fs::read_to_string(path)
             .with_context(|| format!("--limits {} can't be read", path.display()))?;
@@ -172,6 +180,8 @@ fn run(arguments: Arguments) -> anyhow::Result<()> {
         Command::Lesson(arguments) => lesson::run(&arguments, &files()?),
         Command::Check(arguments) => lesson::check::run(&arguments, &files()?),
         Command::HandIn(arguments) => lesson::hand_in::run(&arguments, &files()?),
+        Command::Grade(arguments) => lesson::grade::run(&arguments, &files()?, limits),
+        Command::GradeWorker(arguments) => lesson::worker::run(&arguments, &files()?),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Save(arguments) => save::run(&arguments, files()?),
         Command::Export(arguments) => export::run(&arguments, files()?),

@@ -6,7 +6,8 @@
 //! - [`assets`]: meshes, materials, textures, and the files that they come from;
 //! - [`render`]: a world drawn through a pipeline that is data;
 //! - [`script`]: scenes and pipelines from Rhai files;
-//! - [`lab`]: pictures, measurements, metrics and reports.
+//! - [`lab`]: pictures, measurements, metrics, reports and lessons;
+//! - [`course`]: hand-ins of lessons and their grading.
 //!
 //! A picture, from names to pixels:
 //!
@@ -29,6 +30,7 @@
 #![warn(missing_docs)]
 
 pub use lightbench_assets as assets;
+pub use lightbench_course as course;
 pub use lightbench_lab as lab;
 pub use lightbench_render as render;
 pub use lightbench_script as script;

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
 use clap::Args;
-use lightbench::assets::files::{Files, write_atomic};
-use lightbench::lab::lesson;
+use lightbench::assets::files::Files;
+use lightbench::course::hand_in::hand_in;
 
 use super::check::Checking;
 use crate::cli::report::{note, say};
@@ -22,7 +21,7 @@ written whatever the points are: whoever grades checks again.")]
 pub struct Arguments {
     #[command(flatten)]
     checking: Checking,
-    /// The archive to write; without it, NAME.tar.gz in the current folder
+    /// The archive to write; without it, NAME.zip in the current folder
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -33,13 +32,12 @@ pub struct Arguments {
 /// As `check`, but for points that are missing; or an archive that can't be written.
 pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
     let checked = arguments.checking.run(files)?;
-    let bytes = lesson::hand_in(&checked.lesson, &checked.work, &checked.outcome)?;
     let name = match &checked.outcome.student {
-        Some(student) => format!("{}-{}.tar.gz", checked.lesson.name, plain(student)),
-        None => format!("{}.tar.gz", checked.lesson.name),
+        Some(student) => format!("{}-{}.zip", checked.lesson.name, plain(student)),
+        None => format!("{}.zip", checked.lesson.name),
     };
     let out = arguments.out.as_deref().unwrap_or(Path::new(&name));
-    write_atomic(out, &bytes).with_context(|| format!("--out {}", out.display()))?;
+    hand_in(&checked.lesson, &checked.work, &checked.outcome, out)?;
     note("Hand in:");
     say(out.display().to_string())
 }

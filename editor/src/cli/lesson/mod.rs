@@ -1,8 +1,10 @@
 //! `lightbench lesson`: what lessons there are, a project to begin one with, and a pack for students.
 
 pub mod check;
+pub mod grade;
 pub mod hand_in;
 mod printed;
+pub mod worker;
 
 use std::path::PathBuf;
 

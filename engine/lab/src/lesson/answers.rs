@@ -16,15 +16,18 @@ const MOST_BYTES: usize = 32 << 20;
 /// One answer, in a table that is called like the question.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Answer {
+pub struct Answer {
     /// The number.
-    pub(super) value: f64,
+    pub value: f64,
     /// The report that it was read from, by its path in the project.
-    pub(super) report: String,
+    pub report: String,
 }
 
 /// The answers of a submission, by the names of the questions.
-pub(super) fn read_answers(work: &Files) -> Result<BTreeMap<String, Answer>, Words> {
+///
+/// # Errors
+/// In words, a file that can't be read.
+pub fn read_answers(work: &Files) -> Result<BTreeMap<String, Answer>, Words> {
     let text = work
         .read_text(ANSWERS)
         .map_err(|error| Words::same(error.to_string()))?;

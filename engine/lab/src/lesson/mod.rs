@@ -14,7 +14,6 @@ mod constants;
 mod copies;
 mod examiner;
 mod folders;
-mod hand_in;
 mod imports;
 mod model;
 mod outcome;
@@ -26,12 +25,12 @@ mod text;
 mod tokens;
 mod words;
 
-pub use answers::ANSWERS;
+pub use answers::{ANSWERS, Answer, read_answers};
 pub use check::{CheckError, CheckEvent, CheckOptions, check};
 pub use compare::MARGIN;
 pub use copies::{CopiedFrom, copied_from, says_the_same};
 pub use folders::{LessonOf, begin, lesson_of, pack};
-pub use hand_in::{HAND_IN, HandInError, HandedIn, hand_in, unpack_hand_in};
+
 pub use imports::{Import, forbidden, imports};
 pub use model::{About, Constant, Criterion, Figure, KnownMistake, LESSON_FILE, Question, Task};
 pub use outcome::{
