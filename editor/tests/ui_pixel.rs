@@ -132,6 +132,28 @@ fn another_pipeline_is_drawn_once_for_the_pixel_and_not_shown() {
     assert_eq!(probe(&mut bench, PLACES[1]), second);
 }
 
+/// The answer to an earlier click, which is on its way, is not taken for that of the last one.
+#[test]
+fn quick_clicks_are_answered_for_the_last_pixel() {
+    let mut bench = Bench::open();
+    let picture = bench.picture();
+    for round in 0..4 {
+        for place in [PLACES[round % 2], PLACES[(round + 1) % 2]] {
+            bench.click_at(place);
+        }
+        bench.until("the values", |editor| {
+            !editor.workbench.probing.is_waiting() && !editor.workbench.probing.values.is_empty()
+        });
+        let workbench = &bench.harness.state().workbench;
+        let (x, y) = workbench.probing.pixel.unwrap();
+        let (width, _) = workbench.drawn_size().unwrap();
+        let texel = &picture[((y * width + x) * 4) as usize..][..4];
+        let output = workbench.probing.results.output.unwrap();
+        let said = output.map(|value| (value * 255.0).round() as u8);
+        assert_eq!(said, texel);
+    }
+}
+
 /// Lists of lights that grow: what is read is what is drawn with room for all.
 #[test]
 fn a_pipeline_whose_buffers_grow_is_read_when_they_have() {

@@ -114,6 +114,11 @@ impl Renderer {
         self.scene.uploads()
     }
 
+    /// Bytes of meshes and textures that are on the device.
+    pub fn asset_bytes(&self) -> u64 {
+        self.scene.asset_bytes()
+    }
+
     /// Tells the renderer that another world and other assets come next. Meshes and textures that
     /// both scenes share, by their revision, stay on the device. What was seen of the last scene is
     /// no earlier view of the next.

@@ -6,6 +6,7 @@ use egui_extras::{Column, TableBuilder};
 use super::pixel_light;
 use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
+use crate::ui::workbench::probing::Probing;
 
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -53,13 +54,16 @@ fn values(editor: &Editor, ui: &mut Ui) {
     let palette = Palette::of(ui);
     ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     let row = ui.text_style_height(&egui::TextStyle::Monospace) + 3.0;
+    ScrollArea::horizontal().id_salt("values").show(ui, |ui| {
+        table(ui, probing, palette, row);
+    });
+}
+
+fn table(ui: &mut Ui, probing: &Probing, palette: Palette, row: f32) {
     let table = TableBuilder::new(ui)
         .striped(true)
         .vscroll(false)
-        .column(Column::auto().at_least(70.0))
-        .column(Column::auto().at_least(70.0))
-        .column(Column::auto().at_least(60.0))
-        .column(Column::remainder());
+        .columns(Column::auto().at_least(70.0), 4);
     let table = table.header(row, |mut header| {
         for title in ["Pass", "Target", "Before", "After"] {
             header.col(|ui| {

@@ -6,6 +6,7 @@ use lightbench::world::glam::DVec3;
 
 use super::widgets::{MISSING, combo};
 use crate::ui::editor::Editor;
+use crate::ui::theme::Palette;
 use crate::ui::workbench::lighting::Lit;
 
 /// Lamps that are listed; the rest is summed up.
@@ -30,6 +31,12 @@ pub fn choose(editor: &mut Editor, ui: &mut Ui) {
 
 /// Draws both parts, where they are switched on.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    let workbench = &editor.workbench;
+    let compares = workbench.lighting.on || workbench.beside.pipeline.is_some();
+    if compares && workbench.clock.playing {
+        let text = "While time runs, what is compared is of different moments. Pause it first.";
+        ui.colored_label(Palette::of(ui).warning, text);
+    }
     beside(editor, ui);
     lamps(editor, ui);
 }

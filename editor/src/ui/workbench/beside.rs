@@ -84,6 +84,11 @@ impl Beside {
         self.stage != Stage::Done
     }
 
+    /// Whether what is read next was read in another pipeline's frame.
+    pub(super) fn reads(&self) -> bool {
+        self.reads
+    }
+
     /// Another pipeline or pixel; what is on its way is still to come.
     fn change(&mut self, pipeline: Option<String>) {
         *self = Self {

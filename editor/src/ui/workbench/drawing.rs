@@ -308,7 +308,9 @@ impl Workbench {
                 let passes = passes.map_or(&[][..], |pipeline| &pipeline.desc.passes);
                 let names = passes.iter().map(|pass| pass.name.as_str());
                 let statistics = &self.canvas.statistics;
-                self.trends.submitted(Instant::now(), statistics, names);
+                let assets = self.renderer.asset_bytes();
+                self.trends
+                    .submitted(Instant::now(), statistics, assets, names);
                 let looked = self.renderer.inspector().take_problem();
                 let lined = self.renderer.overlay().take_problem();
                 for problem in looked.iter().chain(&lined) {

@@ -122,7 +122,8 @@ impl Workbench {
             let pass = desc.passes.get(index);
             pass.map_or_else(String::new, |pass| pass.name.clone())
         };
-        if probed.pixel.is_some() {
+        // Somebody may have asked for another pixel meanwhile.
+        if probed.pixel.is_some() && probed.pixel == self.probing.pixel {
             self.probing.results = Results::of(desc, &probed.values);
             let values = probed.values.iter();
             self.probing.values = values.map(|value| in_words(value, pass_of)).collect();
@@ -140,7 +141,8 @@ impl Workbench {
             self.log
                 .warn("The pipeline writes more parts of targets than can be read at once.");
         }
-        self.probing.waiting = false;
+        let inspector = self.renderer.inspector();
+        self.probing.waiting = inspector.is_probing() && !self.beside.reads();
     }
 }
 

@@ -20,7 +20,8 @@ pub enum Trend {
     Passes,
     /// Lights and objects that the camera sees.
     Lights,
-    /// Megabytes of the pipeline's targets and buffers, and what was uploaded for a frame.
+    /// Megabytes of the pipeline's targets and buffers, of meshes and textures, and what was uploaded for
+    /// a frame.
     Memory,
 }
 
@@ -64,11 +65,13 @@ impl Trends {
         self.curves = Default::default();
     }
 
-    /// Takes note of a submitted frame, and of the pipeline's passes.
+    /// Takes note of a submitted frame, of the bytes of meshes and textures, and of the pipeline's
+    /// passes.
     pub fn submitted<'a>(
         &mut self,
         now: Instant,
         statistics: &FrameStatistics,
+        asset_bytes: u64,
         passes: impl Iterator<Item = &'a str> + Clone,
     ) {
         if !passes.clone().eq(self.passes.iter().map(String::as_str)) {
@@ -90,6 +93,7 @@ impl Trends {
         }
         for (name, bytes) in [
             ("targets and buffers", statistics.target_bytes),
+            ("meshes and textures", asset_bytes),
             ("saved by sharing", statistics.saved_bytes),
             ("uploaded rows", statistics.uploaded_bytes),
         ] {
@@ -148,7 +152,7 @@ mod tests {
         let began = trends.began;
         for second in 0..MOST as u64 + 10 {
             let now = began + Duration::from_secs(second);
-            trends.submitted(now, &statistics, ["a", "b"].into_iter());
+            trends.submitted(now, &statistics, 4_000_000, ["a", "b"].into_iter());
             let measured = Measured {
                 gpu_ms: vec![1.0, second as f64],
                 total_ms: Some(5.0),
@@ -167,13 +171,15 @@ mod tests {
         assert_eq!(second.values.back(), Some(&(1209.0, 1209.0)));
         let memory = curve(&trends, Trend::Memory, "targets and buffers").unwrap();
         assert_eq!(memory.values.back().unwrap().1, 3.0);
+        let assets = curve(&trends, Trend::Memory, "meshes and textures").unwrap();
+        assert_eq!(assets.values.back().unwrap().1, 4.0);
         assert_eq!(
             curve(&trends, Trend::Lights, "lights").unwrap().values[0].1,
             7.0
         );
 
         let later = began + Duration::from_secs(5000);
-        trends.submitted(later, &statistics, ["c"].into_iter());
+        trends.submitted(later, &statistics, 0, ["c"].into_iter());
         assert!(curve(&trends, Trend::Passes, "a").is_none());
         // What was drawn before the other pipeline came has another number of passes.
         let late = Measured {
