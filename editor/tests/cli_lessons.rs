@@ -315,8 +315,8 @@ fn a_new_lesson_runs_as_it_is() {
         starter.all()
     );
     project
-        .run(&["new", "lesson", "02-other"])
-        .failed(1, &["the number 2"]);
+        .run(&["new", "lesson", "90-other"])
+        .failed(1, &["the number 90"]);
     project
         .run(&["new", "lesson", "no way"])
         .failed(2, &["lesson's name"]);

@@ -22,13 +22,13 @@ const SAME_PICTURE: f64 = 0.005;
 fn figures_are_what_the_solutions_draw() {
     let update = std::env::var_os("LIGHTBENCH_UPDATE").is_some();
     let mut renderer = Renderer::new(Gpu::open(&GpuOptions::default()).unwrap());
-    let mut compiler = renderer.compiler();
     for (folder, lesson) in all() {
         let work = solved(&folder);
         let files = Files::with_project(work.path()).unwrap();
         let progress = Progress::new();
         let desc = load_pipeline(&files, &lesson.about.pipeline, &Settings::new()).unwrap();
-        let mut pipeline = compiler.compile(&files, &desc).unwrap();
+        // Of its own, since a compiler knows shaders by their paths.
+        let mut pipeline = renderer.compiler().compile(&files, &desc).unwrap();
         let mut drawn = Vec::new();
         for figure in &lesson.about.figures {
             let mut settings = Settings::new();

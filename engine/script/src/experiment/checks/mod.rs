@@ -89,11 +89,13 @@ impl CheckScript {
         })
     }
 
-    /// The functions of the file, each with how many arguments it takes.
+    /// The functions of the file that have a name, each with how many arguments it takes.
     #[must_use]
     pub fn functions(&self) -> Vec<(String, usize)> {
         let functions = self.ast.iter_functions();
         functions
+            // Rhai names closures itself, with a sign that no script can write.
+            .filter(|function| !function.name.contains('$'))
             .map(|function| (function.name.to_owned(), function.params.len()))
             .collect()
     }
