@@ -202,7 +202,9 @@ fn mistakes_about_fields_name_the_way_out() {
         (
             "get(\"light.position\")",
             "`light` has no field `position`",
-            Some("it has `kind`, `color`, `intensity`, `range`, `inner_angle`, `outer_angle` and `visible`"),
+            Some(
+                "it has `kind`, `color`, `intensity`, `range`, `inner_angle`, `outer_angle` and `visible`",
+            ),
         ),
         (
             "get(\"lihgt.range\")",
