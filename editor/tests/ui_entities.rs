@@ -194,7 +194,9 @@ fn the_filter_finds_one_of_twenty_thousand_and_only_rows_in_sight_are_drawn() {
     let mut bench = Bench::open();
     open(
         &mut bench,
-        "for i in 0..20000 { spawn(`thing ${i}`); } spawn(); camera(\"eye\");",
+        "let group = spawn(\"group\"); \
+         for i in 0..20000 { let t = spawn(`thing ${i}`); if i % 2 == 0 { t.parent(group); } } \
+         spawn(); camera(\"eye\");",
     );
     show(&mut bench, Panel::Entities);
     let rows = |bench: &Bench| {
@@ -203,7 +205,7 @@ fn the_filter_finds_one_of_twenty_thousand_and_only_rows_in_sight_are_drawn() {
     };
     let shown = rows(&bench);
     assert!((3..60).contains(&shown), "{shown} rows are drawn");
-    assert_eq!(bench.count("20002 of 20002 entities"), 1);
+    assert_eq!(bench.count("20003 of 20003 entities"), 1);
     // A frame with the list takes little longer than one without it. The shortest of several, because
     // other programs only make them longer.
     let time = |bench: &mut Bench| {
@@ -217,6 +219,7 @@ fn the_filter_finds_one_of_twenty_thousand_and_only_rows_in_sight_are_drawn() {
     let with = time(&mut bench);
     show(&mut bench, Panel::Scene);
     let without = time(&mut bench);
+    println!("a frame takes {with:?} with the list of 20,003 entities, {without:?} without it");
     assert!(
         with < without + Duration::from_millis(8),
         "{with:?} with the list, {without:?} without"
@@ -231,7 +234,7 @@ fn the_filter_finds_one_of_twenty_thousand_and_only_rows_in_sight_are_drawn() {
         .harness
         .event(egui::Event::Text("THING 1234".to_owned()));
     bench.harness.run_steps(3);
-    assert_eq!(bench.count("11 of 20002 entities"), 1);
+    assert_eq!(bench.count("11 of 20003 entities"), 1);
     bench.harness.get_by_label("thing 1234").click();
     bench.harness.run_steps(2);
     assert!(bench.count("Translation") >= 1);

@@ -12,6 +12,7 @@ use lightbench::world::glam::Vec3;
 use lightbench::world::{Camera, Entity, Light, MeshRenderer, Name, Velocity, WorldMatrix};
 use lightbench_editor::ui::layout::Panel;
 use lightbench_editor::ui::lens::Lens;
+use lightbench_editor::ui::workbench::log::Level;
 
 use ui_support::Bench;
 
@@ -37,10 +38,28 @@ fn open() -> Bench {
         assert!(!Bench::has_problems(editor));
         editor.workbench.scenes.shown() == Some("room") && !editor.workbench.scenes.is_busy()
     });
+    // High enough for all rows.
+    bench.harness.set_size(egui::vec2(1100.0, 1500.0));
     bench.show(Panel::Entities);
-    // The file that was just written is told of once more.
-    bench.harness.run_steps(5);
+    calm(&mut bench);
     bench
+}
+
+/// A file that was just written is told of once more.
+fn calm(bench: &mut Bench) {
+    for _ in 0..50 {
+        bench.harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    bench.until("the scene", |editor| !editor.workbench.scenes.is_busy());
+    bench.harness.run_steps(2);
+}
+
+/// What was refused.
+fn errors(bench: &Bench) -> Vec<String> {
+    let lines = bench.harness.state().workbench.log.lines();
+    let errors = lines.filter(|line| line.level == Level::Error);
+    errors.map(|line| line.text.clone()).collect()
 }
 
 /// Saves the script and waits for the scene that it makes.
@@ -52,7 +71,7 @@ fn reload(bench: &mut Bench, script: &str) {
     bench.until("the scene anew", |editor| {
         editor.workbench.scenes.swaps() > swaps && !editor.workbench.scenes.is_busy()
     });
-    bench.harness.run_steps(2);
+    calm(bench);
 }
 
 fn scene(bench: &Bench) -> &Scene {
@@ -347,6 +366,7 @@ fn rows_are_dragged_below_others_and_below_none_and_stay_where_they_are() {
     let (plate, bowl) = (place(&bench, "plate"), place(&bench, "bowl"));
     choose(&mut bench, &["plate", "bowl"]);
     drag(&mut bench, "plate", |bench| row(bench, "cup"));
+    assert_eq!(errors(&bench), [""; 0]);
     assert_eq!(parent(&bench, "plate").as_deref(), Some("cup"));
     assert_eq!(parent(&bench, "bowl").as_deref(), Some("cup"));
     assert!(place(&bench, "plate").abs_diff_eq(plate, 1e-4));
@@ -460,6 +480,8 @@ fn components_are_added_to_and_removed_from_all_that_is_chosen() {
         let world = &scene(bench).world;
         world.has::<Velocity>(world.find(name).unwrap())
     };
+    assert_eq!(errors(&bench), [""; 0]);
+    assert_eq!(chosen(&bench), ["plate", "bowl"]);
     assert!(moves(&bench, "plate") && moves(&bench, "bowl"));
     assert_eq!(steps(&bench), ["Add Velocity to 2 entities"]);
     back_and_again(&mut bench, &before);

@@ -176,6 +176,17 @@ impl Entities {
         true
     }
 
+    /// Makes a slot that an entity has just been removed from as it was before it came: the next one
+    /// there gets its handle.
+    pub fn forget(&mut self, entity: Entity) {
+        if let Some(slot) = self.slots.get_mut(entity.index as usize)
+            && entity.generation % 2 == 1
+            && slot.generation.checked_sub(1) == Some(entity.generation)
+        {
+            slot.generation = entity.generation - 1;
+        }
+    }
+
     pub fn contains(&self, entity: Entity) -> bool {
         entity.generation % 2 == 1
             && self
@@ -269,6 +280,19 @@ mod tests {
         let [first, other] = [entities.spawn(), entities.spawn()];
         assert!(!entities.revive(first), "it is there");
         entities.despawn(first);
+        entities.despawn(other);
+        // Whoever came and was forgotten leaves no trace.
+        let guest = entities.spawn();
+        assert_eq!(guest.index(), other.index());
+        entities.despawn(guest);
+        entities.forget(guest);
+        assert!(!entities.contains(guest));
+        assert_eq!(entities.spawn(), guest);
+        entities.forget(guest);
+        assert!(entities.contains(guest), "one that is there stays");
+        entities.despawn(guest);
+        entities.forget(guest);
+        assert!(entities.revive(other));
         entities.despawn(other);
         assert!(entities.revive(first));
         assert!(entities.contains(first) && !entities.revive(first));

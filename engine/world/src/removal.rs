@@ -32,6 +32,13 @@ impl Removed {
         self.entity
     }
 
+    /// Follows entities that have other handles now.
+    pub fn follow(&mut self, map: &EntityMap) {
+        for handle in [&mut self.parent, &mut self.previous].into_iter().flatten() {
+            *handle = map.get(*handle).unwrap_or(*handle);
+        }
+    }
+
     /// Its components.
     pub fn rows(&self) -> &[Row] {
         &self.rows
@@ -66,6 +73,14 @@ impl World {
             removed
         });
         removed.collect()
+    }
+
+    /// Removes an entity and everything below it as if it had never been there: the next entity in its
+    /// slot gets its handle. Only for those whose handles nobody keeps.
+    pub fn unmake(&mut self, entity: Entity) {
+        for removed in self.take_out(entity) {
+            self.entities.forget(removed.entity);
+        }
     }
 
     /// Puts entities back that were taken out together, each with its handle, or with a new one where
@@ -293,6 +308,25 @@ mod tests {
         let map = world.put_back(&removed);
         assert_eq!(world.parent(map.get(all[3]).unwrap()), None);
         assert!(world.take_out(all[0]).is_empty());
+    }
+
+    #[test]
+    fn what_was_unmade_leaves_slots_as_they_were() {
+        let (mut world, all) = world();
+        let removed = world.take_out(all[2]);
+        let before = seen(&world);
+        let made = [world.spawn(), world.spawn(), world.spawn()];
+        world.set_parent(made[1], Some(made[0])).unwrap();
+        world.insert(made[1], Light::default()).unwrap();
+        world.unmake(made[2]);
+        world.unmake(made[0]);
+        assert_eq!(seen(&world), before);
+        assert_eq!([world.spawn(), world.spawn()], [made[0], made[1]]);
+        world.unmake(made[1]);
+        world.unmake(made[0]);
+        let map = world.put_back(&removed);
+        assert_eq!(map.get(all[4]), Some(all[4]));
+        assert!(world.contains(all[2]) && world.contains(all[4]));
     }
 
     #[test]

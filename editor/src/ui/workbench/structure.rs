@@ -23,16 +23,26 @@ pub fn is_locked(world: &World, entity: Entity) -> bool {
     above.any(|entity| world.tags().contains(LOCKED, entity))
 }
 
+/// Entities below one that are looked at for whether it is shown: it is asked for rows of a list in
+/// each frame.
+const WALKED: usize = 500;
+
 /// Whether something of an entity and of what hangs on it is drawn or shines; `None` where nothing
-/// could.
+/// could. What hangs on it counts as long as it is not too much to look at.
 pub fn is_shown(world: &World, entity: Entity) -> Option<bool> {
     let mut known = own_switch(world, entity);
-    let mut below: Vec<Entity> = world.children(entity).collect();
+    let mut below: Vec<Entity> = world.children(entity).take(WALKED).collect();
+    let mut walked = 0;
     while known != Some(true)
         && let Some(next) = below.pop()
     {
+        if walked == WALKED {
+            return known.or(Some(true));
+        }
+        walked += 1;
         known = own_switch(world, next).or(known);
-        below.extend(world.children(next));
+        let room = WALKED.saturating_sub(below.len());
+        below.extend(world.children(next).take(room));
     }
     known
 }
@@ -153,6 +163,10 @@ impl Workbench {
             if let Some(old) = scene.world.get::<Transform>(entity) {
                 scene.keeps_by_name(entity)?;
                 let local = into * to_world(&scene.world, Some(entity));
+                let (scale, rotation, translation) = local.to_scale_rotation_translation();
+                if !(scale.is_finite() && rotation.is_finite() && translation.is_finite()) {
+                    return Err("it has no place that could be kept below that".to_owned());
+                }
                 places.push((entity, old, local));
             }
         }

@@ -10,7 +10,13 @@ use crate::ui::editor::Editor;
 use crate::ui::theme::Palette;
 
 /// Draws the name and what concerns all fields of what is chosen.
-pub fn show(editor: &mut Editor, ui: &mut Ui, chosen: &[Entity], wish: &mut Option<Wish>) {
+pub fn show(
+    editor: &mut Editor,
+    ui: &mut Ui,
+    chosen: &[Entity],
+    why_not: Option<&str>,
+    wish: &mut Option<Wish>,
+) {
     let Some(&last) = chosen.last() else {
         return;
     };
@@ -64,8 +70,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, chosen: &[Entity], wish: &mut Opti
             *wish = Some(Wish::Reset(names.into_iter().collect(), None));
         }
     });
-    if let Err(why) = scene.keep_names(chosen) {
-        ui.label(RichText::new(field::sentence(&why)).color(Palette::of(ui).warning));
+    if let Some(why) = why_not {
+        ui.label(RichText::new(field::sentence(why)).color(Palette::of(ui).warning));
     }
     if let Some(refused) = &editor.entities.refused {
         ui.label(RichText::new(field::sentence(refused)).color(Palette::of(ui).error));

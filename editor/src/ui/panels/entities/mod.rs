@@ -77,14 +77,18 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         }
         ui.label(RichText::new(text).weak());
     }
-    heading::show(editor, ui, &chosen, &mut wish);
+    // Once for all: with many chosen it walks all names.
+    let scene = editor.workbench.scenes.scene();
+    let refused = scene.and_then(|scene| scene.keep_names(&chosen).err());
+    let refused = refused.as_deref();
+    heading::show(editor, ui, &chosen, refused, &mut wish);
     let scroll = ScrollArea::vertical().id_salt("fields").auto_shrink(false);
     scroll.show(ui, |ui| {
         if chosen.is_empty() {
             let text = "Choose an entity to see its components and to change them by hand.";
             ui.label(RichText::new(text).weak());
         } else {
-            components(editor, ui, &chosen, &mut wish);
+            components(editor, ui, &chosen, refused, &mut wish);
         }
         waiting(editor, ui, &mut wish);
     });
@@ -266,12 +270,17 @@ fn name_of(scene: &lightbench::script::Scene, entity: Entity) -> String {
 }
 
 /// The components that all have, with all their fields.
-fn components(editor: &Editor, ui: &mut Ui, chosen: &[Entity], wish: &mut Option<Wish>) {
+fn components(
+    editor: &Editor,
+    ui: &mut Ui,
+    chosen: &[Entity],
+    refused: Option<&str>,
+    wish: &mut Option<Wish>,
+) {
     let workbench = &editor.workbench;
     let (Some(scene), Some(&last)) = (workbench.scenes.scene(), chosen.last()) else {
         return;
     };
-    let keeps = scene.keep_names(chosen);
     let names: Vec<String> = chosen.iter().map(|e| name_of(scene, *e)).collect();
     let name = name_of(scene, last);
     for kind in scene.world.components_of(last) {
@@ -309,7 +318,7 @@ fn components(editor: &Editor, ui: &mut Ui, chosen: &[Entity], wish: &mut Option
                 value: &value,
                 differs: several::differ(scene, chosen, kind, index, &value),
                 overlay: overlays.and_then(|overlays| overlays.get(&name, path)),
-                refused: keeps.as_ref().err().map(String::as_str),
+                refused,
             };
             match ui.push_id((last, path), |ui| row.show(ui)).inner {
                 None => {}

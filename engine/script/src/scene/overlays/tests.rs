@@ -226,7 +226,7 @@ fn what_can_not_be_kept_by_name_or_is_refused_says_why() {
             lamp,
             "name.text",
             Value::Text("x".into()),
-            "so the name stays",
+            "changed in the field above",
         ),
         (lamp, "world_matrix.matrix", size, "The engine computes it."),
     ] {

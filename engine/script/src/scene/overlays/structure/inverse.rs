@@ -1,5 +1,7 @@
 //! What takes a change of the structure back.
 
+use std::collections::HashSet;
+
 use lightbench_world::{ComponentKind, Entity, EntityMap, Name, Removed, Row};
 
 use super::finding::named;
@@ -59,7 +61,12 @@ impl Inverse {
         match self {
             Self::Made(made) => {
                 for entity in made.iter().rev() {
-                    data.world.take_out(*entity);
+                    let below = data.world.descendants(*entity);
+                    let all: HashSet<Entity> = below.into_iter().chain([*entity]).collect();
+                    // Another one may get its handle.
+                    data.made.retain(|made| !all.contains(made));
+                    data.aims.retain(|aimed, _| !all.contains(aimed));
+                    data.world.unmake(*entity);
                 }
             }
             Self::Removed(removed) => {
@@ -124,8 +131,10 @@ impl Inverse {
             Self::Made(all) | Self::Added(_, all) | Self::Tagged { entities: all, .. } => {
                 all.iter_mut().for_each(renew);
             }
-            // Those have handles that nobody else has, and find their parents' with `put_back`.
-            Self::Removed(_) => {}
+            Self::Removed(all) => {
+                let all = all.iter_mut().flatten();
+                all.for_each(|removed| removed.follow(map));
+            }
             Self::Renamed(all) => all.iter_mut().for_each(|one| renew(&mut one.entity)),
             Self::Moved(all) => {
                 for one in all {
