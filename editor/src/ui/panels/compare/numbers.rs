@@ -100,7 +100,7 @@ fn pictures(workbench: &Workbench, ui: &mut Ui) {
     };
     Grid::new("how far apart")
         .num_columns(2)
-        .spacing([14.0, 2.0])
+        .spacing([9.0, 2.0])
         .show(ui, |ui| {
             for (what, value, about) in lines(&judgement.judged.difference) {
                 ui.label(what).on_hover_text(about);
@@ -160,7 +160,7 @@ fn costs(workbench: &Workbench, sides: &[Option<Costs>; 2], ui: &mut Ui) {
     ];
     Grid::new("what it costs")
         .num_columns(3)
-        .spacing([14.0, 2.0])
+        .spacing([9.0, 2.0])
         .striped(true)
         .show(ui, |ui| {
             ui.label("");
