@@ -20,6 +20,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let palette = Palette::of(ui);
     let row = ui.text_style_height(&egui::TextStyle::Body);
     ui.spacing_mut().item_spacing.y = 3.0;
+    // Rows are as high as is reckoned with, so that the last can be scrolled to.
+    ui.spacing_mut().interact_size.y = row;
     let count = log.lines().len();
     let area = ScrollArea::both().auto_shrink(false).stick_to_bottom(true);
     // A row more, so that the bar at the bottom covers nothing that can be clicked.

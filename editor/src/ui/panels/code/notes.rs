@@ -51,7 +51,7 @@ pub fn offers(code: &Code, ui: &mut Ui) -> Option<Choice> {
         ui.label("These texts were not saved when the editor ended the last time:");
         for (index, draft) in code.offered.iter().enumerate() {
             ui.push_id(index, |ui| {
-                ui.horizontal(|ui| {
+                ui.horizontal_wrapped(|ui| {
                     if ui.button("Open the text").clicked() {
                         choice = Some(Choice::Restore(index));
                     }
