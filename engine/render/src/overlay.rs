@@ -73,7 +73,8 @@ impl Drawing {
             // Blue and orange are told apart by every kind of colour blindness (Okabe and Ito 2008).
             color: match self {
                 Self::Normals => [0.90, 0.62, 0.0, 1.0],
-                _ => [0.34, 0.71, 0.91, 0.5],
+                // Two triangles draw the edge that they share.
+                _ => [0.34, 0.71, 0.91, 0.35],
             },
             length: NORMAL_LENGTH,
             nearer: NEARER,

@@ -104,7 +104,7 @@ fn time(editor: &mut Editor, ui: &mut Ui) {
     button(editor, ui, label, Action::PlayPause);
     button(editor, ui, "Step", Action::Step);
     let in_play = editor.workbench.is_in_play();
-    ui.add_enabled_ui(in_play, |ui| button(editor, ui, "Stop", Action::Stop));
+    button_if(editor, ui, in_play, "Stop", Action::Stop);
     button(editor, ui, "Rewind", Action::Rewind);
     let time = editor.workbench.clock.time();
     let label = ui.label("Speed");
@@ -135,9 +135,7 @@ fn camera(editor: &mut Editor, ui: &mut Ui) {
     button(editor, ui, "Frame", Action::Frame);
     sight(editor, ui);
     let away = editor.workbench.is_camera_away();
-    ui.add_enabled_ui(away, |ui| {
-        button(editor, ui, "Reset camera", Action::ResetCamera);
-    });
+    button_if(editor, ui, away, "Reset camera", Action::ResetCamera);
     ui.separator();
     // Together on one line, where the toolbar takes two.
     ui.horizontal(|ui| {
@@ -215,7 +213,12 @@ fn sight(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn button(editor: &mut Editor, ui: &mut Ui, label: &str, action: Action) {
-    let mut response = ui.button(label);
+    button_if(editor, ui, true, label, action);
+}
+
+/// The same, where it may have nothing to do.
+fn button_if(editor: &mut Editor, ui: &mut Ui, enabled: bool, label: &str, action: Action) {
+    let mut response = ui.add_enabled(enabled, Button::new(label));
     if let Some(key) = shortcut_text(ui.ctx(), action) {
         response = response.on_hover_text(key);
     }

@@ -156,10 +156,12 @@ impl Workbench {
         self.renderer.in_flight() < most
     }
 
-    /// Whether the picture shows the present state of scene, pipeline and camera.
+    /// Whether the picture shows the present state of scene, pipeline and camera, and nobody waits for
+    /// it to be drawn once more.
     pub fn picture_is_current(&self) -> bool {
         let view = self.camera.view();
-        !self.canvas.stale && self.canvas.drawn.is_none_or(|drawn| drawn.view == view)
+        let waits = self.canvas.stale || self.canvas.again;
+        !waits && self.canvas.drawn.is_none_or(|drawn| drawn.view == view)
     }
 
     /// Width and height of the viewport in pixels.

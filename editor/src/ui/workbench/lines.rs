@@ -17,7 +17,7 @@ impl Workbench {
         if self.lines != wanted {
             self.lines.clone_from(&wanted);
             self.renderer.overlay().ask(&self.files, wanted);
-            self.canvas.invalidate();
+            self.canvas.repeat();
         }
     }
 

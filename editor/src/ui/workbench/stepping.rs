@@ -122,7 +122,8 @@ impl Workbench {
         let inspector = self.renderer.inspector();
         if inspector.request_of(Viewer::Picture) != wanted.as_ref() {
             inspector.look_as(Viewer::Picture, &self.files, wanted);
-            self.canvas.invalidate();
+            // The same frame, at the same size.
+            self.canvas.repeat();
         }
     }
 

@@ -33,7 +33,7 @@ pub struct Look {
 const SMALLEST: f32 = 5.0;
 
 /// The least size of a pass's name, points.
-const NAME: f32 = 8.5;
+const NAME: f32 = 8.0;
 
 /// Draws everything. Returns what was clicked.
 pub fn graph(editor: &Editor, ui: &mut Ui, rect: Rect, look: &Look) -> Option<Picked> {
