@@ -105,9 +105,14 @@ fn pair(points: &str, state: &str) -> (String, String) {
 #[test]
 fn honest_and_hostile_hand_ins_are_graded_side_by_side() {
     let course = Course::new();
+    // It counts rounds, so that no compiler can leave them out.
     let endless = solution().replace(
         "fn encode(light: f32) -> f32 {",
-        "fn encode(light: f32) -> f32 {\n    var x = light;\n    while x > -1.0 { x = x * 0.5 + 0.1; }\n    if x < -2.0 { return x; }",
+        "fn encode(light: f32) -> f32 {
+    var x = light;
+    var rounds = 0.0;
+    while x != 12345.0 { x = fract(x * 7.13 + 0.37); rounds += 1.0; }
+    if rounds > 0.5 { return rounds; }",
     );
     let missing_root = solution().replace("pow(light, 1.0 / GAMMA)", "light");
     course

@@ -94,7 +94,7 @@ impl Bench {
         // No window of the system opens in a test.
         editor.dialogs.native = false;
         let harness = Harness::builder()
-            .with_size(egui::vec2(1100.0, 760.0))
+            .with_size(egui::vec2(1280.0, 800.0))
             .renderer(renderer)
             .build_ui_state(
                 |ui, editor: &mut Editor| {

@@ -170,7 +170,7 @@ fn hidden(
         .flatten()
         .map(|place| place.join(lesson::HIDDEN));
     let own = own
-        .filter(|folder| folder.is_dir())
+        .filter(|folder| folder.join(lesson::CHECKS).is_file())
         .find_map(|f| fs::canonicalize(f).ok());
     if own.is_none() {
         note("No hidden checks: only those that students have are made.");
