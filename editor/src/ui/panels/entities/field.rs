@@ -87,12 +87,6 @@ impl Row<'_> {
         ui.horizontal(|ui| {
             self.dot(ui);
             let label = self.label(ui);
-            if self.differs {
-                let about = "What is chosen has different values here. This is the one of the last; a \
-                             change goes to all.";
-                ui.label(RichText::new("differs").small().italics())
-                    .on_hover_text(about);
-            }
             let locked = editable(self.kind, self.info).err().or(self.refused);
             if let Some(why) = locked {
                 let text = RichText::new(self.text()).monospace().weak();
@@ -101,6 +95,14 @@ impl Row<'_> {
                 return;
             }
             done = self.widget(ui, label.id).map(Done::Set);
+            // Behind the widget, which would be another one for egui if something before it came or went
+            // while it is dragged.
+            if self.differs {
+                let about = "What is chosen has different values here. This is the one of the last; a \
+                             change goes to all.";
+                ui.label(RichText::new("differs").small().italics())
+                    .on_hover_text(about);
+            }
             if let Some(overlay) = self.overlay {
                 let about = match &overlay.script {
                     Some(script) => format!("Back to the script's {}", text_of(script)),
