@@ -127,7 +127,7 @@ fn one(editor: &mut Editor, ui: &mut Ui, card: &Card, has_project: bool) -> Opti
     ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
     ui.label(RichText::new(&card.title).strong());
     ui.style_mut().wrap_mode = Some(TextWrapMode::Wrap);
-    let about = egui::Rect::from_min_size(ui.cursor().min, vec2(PICTURE.x, 34.0));
+    let about = egui::Rect::from_min_size(ui.cursor().min, vec2(PICTURE.x, 44.0));
     let mut text = ui.new_child(egui::UiBuilder::new().max_rect(about).id_salt("about"));
     text.set_clip_rect(about.intersect(ui.clip_rect()));
     text.label(RichText::new(&card.about).small().weak())
