@@ -14,7 +14,7 @@ use lightbench_editor::ui::workbench::lighting::Lit;
 use ui_support::Bench;
 
 /// On a wall of the box, and on its floor.
-const PLACES: [Pos2; 2] = [Pos2::new(300.0, 350.0), Pos2::new(490.0, 540.0)];
+const PLACES: [Pos2; 2] = [Pos2::new(400.0, 270.0), Pos2::new(570.0, 575.0)];
 
 fn probe(bench: &mut Bench, at: Pos2) -> Results {
     bench.click_at(at);

@@ -132,6 +132,10 @@ fn choose(bench: &mut Bench, names: &[&str]) {
             _ => Modifiers::COMMAND,
         };
         hold(bench, modifiers);
+        // Where the row is once the panel has taken in what was chosen before.
+        let node = bench.harness.get_by_role_and_label(Role::Button, name);
+        node.scroll_to_me();
+        bench.harness.run_steps(3);
         let at = row(bench, name);
         bench.harness.hover_at(at);
         bench.harness.step();
@@ -444,14 +448,16 @@ fn what_is_locked_is_neither_picked_nor_moved() {
     // Chosen in the list, it does not follow its handles.
     choose(&mut bench, &["plate"]);
     let at = place(&bench, "plate");
-    let node = bench.harness.get_by_role_and_label(Role::Image, "Viewport");
-    let lens = Lens::new(node.rect(), bench.harness.state().workbench.camera.view());
-    let handle = at + Vec3::X * 40.0 * lens.metres_per_point(at);
-    let (from, to) = (
-        lens.point(handle).unwrap(),
-        lens.point(handle + Vec3::X).unwrap(),
-    );
+    // What is not taken by a handle moves the camera.
     let pull = |bench: &mut Bench| {
+        let node = bench.harness.get_by_role_and_label(Role::Image, "Viewport");
+        let view = bench.harness.state().workbench.camera.view();
+        let lens = Lens::new(node.rect(), view);
+        let handle = at + Vec3::X * 40.0 * lens.metres_per_point(at);
+        let (from, to) = (
+            lens.point(handle).unwrap(),
+            lens.point(handle + Vec3::X).unwrap(),
+        );
         bench.harness.hover_at(from);
         bench.harness.step();
         button(bench, from, true, Modifiers::NONE);
@@ -529,6 +535,12 @@ fn a_field_that_all_have_is_changed_for_all_as_one_step() {
     let workbench = &bench.harness.state().workbench;
     assert_eq!(workbench.selection.len(), 2);
     let at = [place(&bench, "plate"), place(&bench, "bowl")];
+    let first = bench
+        .harness
+        .query_all_by_role_and_label(Role::SpinButton, "Translation")
+        .next();
+    first.unwrap().scroll_to_me();
+    bench.harness.run_steps(3);
     let fields = bench
         .harness
         .query_all_by_role_and_label(Role::SpinButton, "Translation");

@@ -64,7 +64,8 @@ pub struct Editor {
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
     revealed: Option<Panel>,
-    pub(super) hint: bool,
+    /// Whether what the mouse does is told over the picture.
+    pub hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
     quit: bool,

@@ -1,7 +1,7 @@
 //! What is on the screen, as one line of text: scene, pipeline, their parameters, camera, time and size.
 //!
 //! The editor copies and pastes such lines, `lightbench render --view` draws them and `lightbench compare
-//! --view` measures them. [`text`] has the format.
+//! --view` measures them. `text` has the format.
 
 pub mod moment;
 pub mod plan;

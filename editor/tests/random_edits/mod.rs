@@ -359,7 +359,8 @@ impl Desk {
         all.dedup();
         let place = self.random.below(all.len());
         if let Some(name) = all.get(place) {
-            self.workbench.reset_fields(&[name.clone()], None);
+            self.workbench
+                .reset_fields(std::slice::from_ref(name), None);
         }
     }
 }

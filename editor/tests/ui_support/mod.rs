@@ -93,6 +93,8 @@ impl Bench {
         let mut editor = Editor::new(workbench, painter, Kept::read(kept));
         // No window of the system opens in a test.
         editor.dialogs.native = false;
+        // Nothing lies over the picture that is clicked on.
+        editor.hint = false;
         let harness = Harness::builder()
             .with_size(egui::vec2(1280.0, 800.0))
             .renderer(renderer)

@@ -47,7 +47,7 @@ pub struct Options {
 pub struct Assignment {
     /// The folder with what was handed in.
     pub work: PathBuf,
-    /// The folder that the process may write into: [`OUTCOME`](self) and pictures.
+    /// The folder that the process may write into: the outcome and pictures.
     pub out: PathBuf,
     /// For whom numbers are drawn.
     pub id: Option<String>,
@@ -369,3 +369,94 @@ impl Grader<'_> {
 
 /// What begins a line in which the process that checks says what it could not give up.
 pub const NOT_ENFORCED: &str = "not enforced: ";
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::time::Duration;
+
+    use lightbench_lab::lesson::Source;
+
+    use super::*;
+
+    /// One hand-in whose check is a shell script.
+    fn ended(script: &str) -> Record {
+        let folder = tempfile::tempdir().unwrap();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../lessons/11-linear-light");
+        let lesson = Lesson::read("11-linear-light", Source::of_folder(&path).unwrap()).unwrap();
+        let file = folder.path().join("ada.zip");
+        archive::pack(&file, &[("a".to_owned(), Vec::new())]).unwrap();
+        let submission = Submission {
+            student: "ada".to_owned(),
+            name: "Ada".to_owned(),
+            late: false,
+            archive: Ok(file),
+            replaced: Vec::new(),
+        };
+        let options = Options {
+            out: folder.path().join("out"),
+            jobs: 1,
+            bounds: Bounds {
+                time: Duration::from_millis(500),
+                memory: 1 << 30,
+                output: 1000,
+            },
+            archive: archive::Bounds::default(),
+            fingerprint: String::new(),
+            again: Vec::new(),
+            ids: BTreeMap::new(),
+        };
+        let launch = |assignment: &Assignment| {
+            let mut command = Command::new("sh");
+            command
+                .args(["-c", script])
+                .env("OUTCOME", assignment.outcome());
+            command
+        };
+        let records = grade(
+            &lesson,
+            &[submission],
+            &options,
+            &launch,
+            &|| false,
+            &|_| {},
+        );
+        let record = records.unwrap().pop().unwrap();
+        let written = Record::read(&options.out.join("students/ada")).unwrap();
+        assert_eq!(written.as_ref(), Some(&record));
+        record
+    }
+
+    #[test]
+    fn what_hangs_crashes_or_floods_gets_no_points_and_is_marked() {
+        for (script, words) in [
+            ("sleep 100", "stopped after"),
+            ("kill -SEGV $$", "crashed with signal 11"),
+            ("yes", "had printed more than"),
+        ] {
+            let record = ended(script);
+            assert!(matches!(record.ending, Ending::Stopped(_)), "{script}");
+            assert!(record.problem().unwrap().contains(words), "{record:?}");
+            assert_eq!(record.points(), Some(0));
+            assert!(record.needs_a_person());
+        }
+    }
+
+    #[test]
+    fn a_check_that_fails_by_itself_gives_no_points_at_all() {
+        let record = ended("echo 'error: no device' >&2; exit 1");
+        assert_eq!(record.problem(), Some("error: no device"));
+        assert_eq!(record.points(), None);
+        // Nor does an outcome that is another lesson's, or none.
+        for text in ["{}", "not JSON"] {
+            let record = ended(&format!("printf '{text}' > \"$OUTCOME\""));
+            assert_eq!(record.points(), None, "{record:?}");
+        }
+    }
+
+    #[test]
+    fn what_can_not_be_enforced_is_kept() {
+        let record = ended("echo 'not enforced: no network: denied'; exit 1");
+        assert_eq!(record.not_enforced, ["no network: denied"]);
+    }
+}
