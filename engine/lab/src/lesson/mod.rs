@@ -21,6 +21,7 @@ mod pictures;
 mod read;
 mod source;
 mod stage;
+mod submission;
 mod text;
 mod tokens;
 mod words;

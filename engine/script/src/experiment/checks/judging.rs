@@ -6,7 +6,7 @@ use lightbench_render::TargetImage;
 use rhai::{Array, Dynamic, EvalAltResult, FnPtr, Map};
 
 use super::evidence::{Bound, Evidence, Expected, Told};
-use super::mistakes::{bound, mistakes, options};
+use super::mistakes::{bound, mistakes};
 use super::work::Work;
 use crate::api::{Api, Arguments, Mistake, as_number, spell};
 use crate::experiment::images::Image;
@@ -55,7 +55,7 @@ fn pictures(api: &mut Api) {
                 let found: Image = arguments.object(1)?;
                 let expected: Image = arguments.object(2)?;
                 let known = ["absolute", "relative", "share", "within", "channels", "mistakes"];
-                let options = options(arguments, 3, "same_picture", &known)?;
+                let options = Options::read(arguments, 3, "same_picture", &known)?;
                 let found = found.texels();
                 let area = area(&options, found)?;
                 let channels = channels(&options, found)?;
@@ -95,7 +95,7 @@ fn values(api: &mut Api) {
                 let criterion = arguments.text(0)?;
                 let found: Image = arguments.object(1)?;
                 let known = ["absolute", "relative", "share", "within", "every", "mistakes"];
-                let options = options(arguments, 3, "same_values", &known)?;
+                let options = Options::read(arguments, 3, "same_values", &known)?;
                 let found = found.texels();
                 let area = area(&options, found)?;
                 let every = found.width.max(found.height).div_ceil(POINTS);
@@ -135,7 +135,7 @@ fn numbers(api: &mut Api) {
             |work: Work, arguments| {
                 let criterion = arguments.text(0)?;
                 let known = ["absolute", "relative", "unit", "mistakes"];
-                let options = options(arguments, 3, "same_number", &known)?;
+                let options = Options::read(arguments, 3, "same_number", &known)?;
                 let read = |value: &Dynamic| Ok::<_, Mistake>(as_number(value));
                 let evidence = Evidence::Number {
                     found: any_number(arguments, 1)?,
@@ -171,7 +171,8 @@ fn limits(api: &mut Api) {
                 about,
                 move |work: Work, arguments| {
                     let criterion = arguments.text(0)?;
-                    let options = options(arguments, 3, name, &["margin", "unit", "mistake"])?;
+                    let options =
+                        Options::read(arguments, 3, name, &["margin", "unit", "mistake"])?;
                     let evidence = Evidence::Limit {
                         found: any_number(arguments, 1)?,
                         limit: arguments.number(2)?,
@@ -198,7 +199,7 @@ fn statements(api: &mut Api) {
              `mistake`, the one that is meant where they are not.",
             |work: Work, arguments| {
                 let criterion = arguments.text(0)?;
-                let options = options(arguments, 3, "same", &["mistake"])?;
+                let options = Options::read(arguments, 3, "same", &["mistake"])?;
                 let (found, expected) = (arguments.value(1), arguments.value(2));
                 let evidence = Evidence::Statement {
                     holds: equal(found, expected),
@@ -221,7 +222,7 @@ fn statements(api: &mut Api) {
              meant where it does not hold.",
             |work: Work, arguments| {
                 let criterion = arguments.text(0)?;
-                let options = options(arguments, 4, "holds", &["mistake"])?;
+                let options = Options::read(arguments, 4, "holds", &["mistake"])?;
                 let evidence = Evidence::Statement {
                     holds: arguments.switch(1)?,
                     found: told(arguments.value(2)),

@@ -3,7 +3,7 @@
 use rhai::{Dynamic, Map};
 
 use super::evidence::Bound;
-use crate::api::{Arguments, Mistake};
+use crate::api::Mistake;
 use crate::experiment::options::Options;
 
 /// Reads `absolute`, `relative` and `share`; `bound` is what counts without them.
@@ -44,14 +44,4 @@ pub(super) fn mistakes<T, E: From<Mistake>>(
         found.push((name.to_string(), read));
     }
     Ok(found)
-}
-
-/// Reads the options of a judgement.
-pub(super) fn options<'a, 'b, 'c, 'v, 'd>(
-    arguments: &'a Arguments<'b, 'c, 'v, 'd>,
-    index: usize,
-    call: &'static str,
-    known: &[&str],
-) -> Result<Options<'a, 'b, 'c, 'v, 'd>, Mistake> {
-    Options::read(arguments, index, call, known)
 }
