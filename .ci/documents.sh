@@ -3,18 +3,20 @@
 # shellcheck shell=bash disable=SC2154 # root is set there
 
 # Fails where a document links to a file that is not there, or names a path of this tree that is
-# gone. A path to be made by the reader is written with a NAME in capitals.
+# gone. A path to be made by the reader is written with a NAME in capitals. The text of a lesson names
+# files of its starter; what new lessons are made from is tried by a test that makes one.
 step_links() {
     local broken
     broken=$(
-        find "$root" -name '*.md' -not -path "$root/target/*" -not -path "$root/out/*" |
+        find "$root" -name '*.md' -not -path "$root/target/*" -not -path "$root/out/*" -not -path '*/template/*' |
             LC_ALL=C sort | while read -r document; do
             {
                 grep -oE '\]\([^)# ]+' "$document" | sed 's/^](//' | grep -vE '^[a-z]+:'
                 # shellcheck disable=SC2016 # these are the document's own back quotes
                 grep -oE '`(engine|editor|scripts|shaders|lessons|tests)/[a-z0-9_./-]*`' "$document" | tr -d '`'
             } | while read -r path; do
-                if [ ! -e "${document%/*}/$path" ] && [ ! -e "$root/$path" ]; then
+                if [ ! -e "${document%/*}/$path" ] && [ ! -e "${document%/*}/starter/$path" ] &&
+                    [ ! -e "$root/$path" ]; then
                     printf '%s: there is no %s\n' "${document#"$root"/}" "$path"
                 fi
             done
