@@ -12,3 +12,10 @@ fn random_changes_are_taken_back_and_done_again_exactly() {
     assert!(counts.undone > 1_000 && counts.redone > 100, "{counts:?}");
     assert!(counts.saved == 10 && counts.loaded == 11, "{counts:?}");
 }
+
+#[test]
+fn other_seeds_and_many_loads() {
+    for seed in 2..10 {
+        random_edits::run(seed, 300, 10);
+    }
+}
