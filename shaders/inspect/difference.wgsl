@@ -14,12 +14,6 @@ struct Difference {
 @group(0) @binding(1) var first: texture_2d<f32>;
 @group(0) @binding(2) var second: texture_2d<f32>;
 
-@vertex
-fn vertex_main(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
-    return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
-}
-
 @fragment
 fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let texel = vec2i(pixel.xy);

@@ -44,6 +44,7 @@ pub mod validate;
 pub mod variant;
 pub mod view;
 pub mod volumes;
+mod way_back;
 
 pub use compile::Compiler;
 pub use description::PipelineDesc;

@@ -4,12 +4,12 @@
 //! mapped in the background, so that reading never stalls drawing. When all buffers of the ring
 //! are in flight, the frame is drawn without queries.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::mem;
 
 use wgpu::{Features, PipelineStatisticsTypes, QueryType};
 
 use crate::gpu::Gpu;
+use crate::way_back::WayBack;
 
 /// Passes that can be measured in one frame: what two timestamps each allow in a query set.
 const MAX_PASSES: u32 = 256;
@@ -24,11 +24,6 @@ const COUNTERS_AT: u64 = STATISTICS_AT + MAX_PASSES as u64 * STATISTICS * RESULT
 /// Counters that a pipeline may have.
 pub const MAX_COUNTERS: usize = 16;
 const BYTES: u64 = COUNTERS_AT + MAX_COUNTERS as u64 * 4;
-
-const IDLE: u8 = 0;
-const IN_FLIGHT: u8 = 1;
-const READY: u8 = 2;
-const FAILED: u8 = 3;
 
 /// What can be measured of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,7 +112,7 @@ impl Plan {
 
 struct Slot {
     buffer: wgpu::Buffer,
-    state: Arc<AtomicU8>,
+    back: WayBack,
     frame: u32,
     plan: Plan,
 }
@@ -169,7 +164,7 @@ impl Queries {
             ring: (0..RING)
                 .map(|_| Slot {
                     buffer: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
-                    state: Arc::new(AtomicU8::new(IDLE)),
+                    back: WayBack::default(),
                     frame: 0,
                     plan: Plan::default(),
                 })
@@ -191,10 +186,7 @@ impl Queries {
     pub fn begin(&mut self, frame: u32, passes: impl Iterator<Item = Measure>, counters: usize) {
         let available = self.timestamps.is_some() || self.statistics.is_some() || counters > 0;
         let measurable = self.enabled && available;
-        let free = self
-            .ring
-            .iter()
-            .position(|slot| slot.state.load(Ordering::Acquire) == IDLE);
+        let free = self.ring.iter().position(|slot| slot.back.is_idle());
         self.current = free.filter(|_| measurable);
         if let Some(slot) = self.current.and_then(|index| self.ring.get_mut(index)) {
             slot.frame = frame;
@@ -309,36 +301,23 @@ impl Queries {
         let Some(slot) = self.current.take().and_then(|index| self.ring.get(index)) else {
             return;
         };
-        slot.state.store(IN_FLIGHT, Ordering::Release);
-        let state = Arc::clone(&slot.state);
-        slot.buffer
-            .map_async(wgpu::MapMode::Read, .., move |result| {
-                state.store(
-                    if result.is_ok() { READY } else { FAILED },
-                    Ordering::Release,
-                );
-            });
+        slot.back.copied();
+        slot.back.submitted(&slot.buffer);
     }
 
     /// Results that have come back, oldest frame first, until the next call. The device must be polled
     /// for them.
     pub fn collect(&mut self) -> &[Measured] {
-        self.spare.append(&mut self.found);
+        let (mut spare, mut found) = (mem::take(&mut self.spare), mem::take(&mut self.found));
+        spare.append(&mut found);
         for slot in &self.ring {
-            match slot.state.load(Ordering::Acquire) {
-                READY => {
-                    if let Ok(view) = slot.buffer.get_mapped_range(..) {
-                        let mut measured = self.spare.pop().unwrap_or_default();
-                        self.read(slot, &view, &mut measured);
-                        self.found.push(measured);
-                    }
-                    slot.buffer.unmap();
-                    slot.state.store(IDLE, Ordering::Release);
-                }
-                FAILED => slot.state.store(IDLE, Ordering::Release),
-                _ => {}
-            }
+            slot.back.take(&slot.buffer, |bytes| {
+                let mut measured = spare.pop().unwrap_or_default();
+                self.read(slot, bytes, &mut measured);
+                found.push(measured);
+            });
         }
+        (self.spare, self.found) = (spare, found);
         self.found.sort_unstable_by_key(|measured| measured.frame);
         &self.found
     }

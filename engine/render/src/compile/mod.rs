@@ -36,7 +36,7 @@ use cache::PipelineCache;
 
 /// The vertex stages that passes use whose shader brings none.
 const GEOMETRY_VERTEX: &str = "shaders/vertex/geometry.wgsl";
-const FULLSCREEN_VERTEX: &str = "shaders/vertex/fullscreen.wgsl";
+pub(crate) const FULLSCREEN_VERTEX: &str = "shaders/vertex/fullscreen.wgsl";
 const LIGHT_VERTEX: &str = "shaders/vertex/light_volume.wgsl";
 /// The define that lets it cover the screen, for lights without bounds.
 const FULL_SCREEN: &str = "FULL_SCREEN";

@@ -1,16 +1,10 @@
 //! Two pictures in one: side by side, their difference, or a map over a picture.
 
-use std::borrow::Cow;
-
 use lightbench_assets::files::Files;
 
+use super::screen;
 use crate::gpu::Gpu;
-use crate::problem::{Place, Problem};
-use crate::reflection::{FRAGMENT_ENTRY, VERTEX_ENTRY};
-use crate::shader::ShaderComposer;
-
-/// The format of what comes out: values are coded as sRGB already.
-const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+use crate::problem::Problem;
 
 /// How two pictures become one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,11 +119,21 @@ impl Combiner {
         let slot = &mut self.pipelines[how.index()];
         let pipeline = match slot {
             Some(pipeline) => &*pipeline,
-            None => slot.insert(build(&self.gpu, files, kit, how.shader())?),
+            None => {
+                let path = how.shader();
+                let module = screen::module(&self.gpu, files, path, &[])?;
+                slot.insert(screen::pipeline(
+                    &self.gpu,
+                    files,
+                    path,
+                    &module,
+                    &kit.layout,
+                )?)
+            }
         };
         let picture = match self.picture.take() {
             Some(picture) if picture.size() == first.size() => picture,
-            _ => canvas(&self.gpu, first.size()),
+            _ => screen::canvas(&self.gpu, first.size()),
         };
         let picture = self.picture.insert(picture);
         let drawn = match self.drawn.take() {
@@ -143,25 +147,11 @@ impl Combiner {
         let drawn = self.drawn.insert(drawn);
         let queue = &self.gpu.queue;
         queue.write_buffer(&kit.uniforms, 0, bytemuck::cast_slice(&how.data()));
-        let view = picture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self
             .gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("combine"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations::default(),
-            })],
-            ..Default::default()
-        });
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &drawn.group, &[]);
-        pass.draw(0..3, 0..1);
-        drop(pass);
+        screen::paint(&mut encoder, picture, pipeline, &drawn.group);
         queue.submit([encoder.finish()]);
         Ok(Some(picture.clone()))
     }
@@ -228,69 +218,4 @@ impl Kit {
             ],
         })
     }
-}
-
-fn canvas(gpu: &Gpu, size: wgpu::Extent3d) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("combined picture"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: PICTURE,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
-}
-
-fn build(
-    gpu: &Gpu,
-    files: &Files,
-    kit: &Kit,
-    path: &'static str,
-) -> Result<wgpu::RenderPipeline, Problem> {
-    let mut composer = ShaderComposer::new(files, gpu.capabilities())?;
-    let shader = composer.compose(files, path, &[])?;
-    let source = wgpu::ShaderSource::Naga(Cow::Owned(shader.module));
-    let make = || {
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(path),
-                source,
-            });
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("combine"),
-                bind_group_layouts: &[Some(&kit.layout)],
-                immediate_size: 0,
-            });
-        gpu.device
-            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(path),
-                layout: Some(&layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(VERTEX_ENTRY),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: None,
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(FRAGMENT_ENTRY),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &[Some(PICTURE.into())],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-    };
-    gpu.guarded(make)
-        .map_err(|error| Problem::new(Place::file(path), error))
 }

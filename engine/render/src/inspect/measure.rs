@@ -2,9 +2,6 @@
 //!
 //! The GPU counts; what comes back is a few words a channel, some frames later, so that nothing waits.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
-
 use lightbench_assets::files::Files;
 
 use super::Between;
@@ -15,6 +12,7 @@ use crate::Format;
 use crate::gpu::Gpu;
 use crate::problem::Problem;
 use crate::reflection::SampleKind;
+use crate::way_back::WayBack;
 
 /// Equal parts of the range in which values are counted. Also in `shaders/inspect/measure.wgsl`.
 pub const BINS: usize = 64;
@@ -86,12 +84,6 @@ struct MeasureData {
     far: f32,
 }
 
-const IDLE: u8 = 0;
-const ASKED: u8 = 1;
-const MAPPING: u8 = 2;
-const READY: u8 = 3;
-const FAILED: u8 = 4;
-
 struct Buffers {
     requests: wgpu::Buffer,
     results: wgpu::Buffer,
@@ -106,7 +98,7 @@ pub(super) struct Measurer {
     /// What is on its way, and how many channels it has.
     recorded: Option<(Inspection, usize)>,
     buffers: Option<Buffers>,
-    state: Arc<AtomicU8>,
+    back: WayBack,
 }
 
 impl Measurer {
@@ -117,7 +109,7 @@ impl Measurer {
             request: None,
             recorded: None,
             buffers: None,
-            state: Arc::new(AtomicU8::new(IDLE)),
+            back: WayBack::default(),
         }
     }
 
@@ -208,56 +200,37 @@ impl Measurer {
     pub fn end_frame(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(buffers) = &self.buffers
             && self.recorded.is_some()
-            && self.state.load(Ordering::Acquire) == IDLE
+            && self.back.is_idle()
         {
             encoder.copy_buffer_to_buffer(&buffers.results, 0, &buffers.back, 0, BYTES);
-            self.state.store(ASKED, Ordering::Release);
+            self.back.copied();
         }
     }
 
     pub fn submitted(&mut self) {
-        let Some(buffers) = &self.buffers else {
-            return;
-        };
-        if self.state.load(Ordering::Acquire) != ASKED {
-            return;
+        if let Some(buffers) = &self.buffers {
+            self.back.submitted(&buffers.back);
         }
-        self.state.store(MAPPING, Ordering::Release);
-        let state = Arc::clone(&self.state);
-        buffers
-            .back
-            .map_async(wgpu::MapMode::Read, .., move |result| {
-                let reached = if result.is_ok() { READY } else { FAILED };
-                state.store(reached, Ordering::Release);
-            });
     }
 
     /// The answer, once.
     pub fn take(&mut self) -> Option<Measured> {
-        let state = self.state.load(Ordering::Acquire);
-        if state != READY && state != FAILED {
-            return None;
-        }
-        self.state.store(IDLE, Ordering::Release);
+        let buffers = self.buffers.as_ref()?;
+        let words = self.back.take(&buffers.back, |bytes| {
+            let words = bytes.chunks_exact(size_of::<u32>());
+            words.map(bytemuck::pod_read_unaligned).collect()
+        })?;
         let (request, channels) = self.recorded.take()?;
-        let buffers = self.buffers.as_ref().filter(|_| state == READY)?;
-        let measured = buffers.back.get_mapped_range(..).ok().map(|bytes| {
-            let words: Vec<u32> = bytes
-                .chunks_exact(size_of::<u32>())
-                .map(bytemuck::pod_read_unaligned)
-                .collect();
-            Measured {
-                channels: words
-                    .chunks_exact(CHANNEL_WORDS)
-                    .take(channels)
-                    .map(channel)
-                    .collect(),
-                empty: words.last().copied().unwrap_or_default(),
-                request,
-            }
-        });
-        buffers.back.unmap();
-        measured
+        let words: Vec<u32> = words?;
+        Some(Measured {
+            channels: words
+                .chunks_exact(CHANNEL_WORDS)
+                .take(channels)
+                .map(channel)
+                .collect(),
+            empty: words.last().copied().unwrap_or_default(),
+            request,
+        })
     }
 }
 

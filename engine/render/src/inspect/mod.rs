@@ -9,6 +9,7 @@ mod look;
 mod measure;
 mod probe;
 mod read;
+mod screen;
 mod show;
 mod texels;
 mod written;

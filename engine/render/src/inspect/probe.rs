@@ -1,8 +1,5 @@
 //! What each pass of one frame does to a pixel, and where values are that are no numbers.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
-
 use lightbench_assets::files::Files;
 
 use super::Between;
@@ -15,6 +12,7 @@ use crate::gpu::Gpu;
 use crate::problem::Problem;
 use crate::reflection::SampleKind;
 use crate::targets::Target;
+use crate::way_back::WayBack;
 
 /// What to read in a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -125,12 +123,6 @@ const CAPACITY: usize = 4096;
 /// Bytes from one request to the next: dynamic offsets are aligned so far at most.
 const STEP: usize = 256;
 
-const IDLE: u8 = 0;
-const ASKED: u8 = 1;
-const MAPPING: u8 = 2;
-const READY: u8 = 3;
-const FAILED: u8 = 4;
-
 /// One reading: where its answer is, and what it is about.
 struct Reading {
     what: What,
@@ -162,7 +154,7 @@ pub(super) struct Prober {
     requests: Vec<u8>,
     cut_off: bool,
     buffers: Option<Buffers>,
-    state: Arc<AtomicU8>,
+    back: WayBack,
 }
 
 struct Buffers {
@@ -182,7 +174,7 @@ impl Prober {
             requests: Vec::new(),
             cut_off: false,
             buffers: None,
-            state: Arc::new(AtomicU8::new(IDLE)),
+            back: WayBack::default(),
         }
     }
 
@@ -201,12 +193,11 @@ impl Prober {
     }
 
     fn is_asked(&self) -> bool {
-        let free = self.state.load(Ordering::Acquire) == IDLE;
-        free && self.request != ProbeRequest::default()
+        self.back.is_idle() && self.request != ProbeRequest::default()
     }
 
     pub fn is_busy(&self) -> bool {
-        self.request != ProbeRequest::default() || self.state.load(Ordering::Acquire) != IDLE
+        self.request != ProbeRequest::default() || !self.back.is_idle()
     }
 
     pub fn before_pass(
@@ -352,46 +343,30 @@ impl Prober {
         self.recorded = std::mem::take(&mut self.request);
         let bytes = buffers.back.size();
         encoder.copy_buffer_to_buffer(&buffers.results, 0, &buffers.back, 0, bytes);
-        self.state.store(ASKED, Ordering::Release);
+        self.back.copied();
     }
 
     pub fn submitted(&mut self) {
-        if self.state.load(Ordering::Acquire) != ASKED {
-            return;
+        if let Some(buffers) = &self.buffers {
+            self.back.submitted(&buffers.back);
         }
-        let Some(buffers) = &self.buffers else {
-            return;
-        };
-        self.state.store(MAPPING, Ordering::Release);
-        let state = Arc::clone(&self.state);
-        buffers
-            .back
-            .map_async(wgpu::MapMode::Read, .., move |result| {
-                let reached = if result.is_ok() { READY } else { FAILED };
-                state.store(reached, Ordering::Release);
-            });
     }
 
     /// The answers, once; what was asked for is done then.
     pub fn take(&mut self) -> Option<Probed> {
-        let state = self.state.load(Ordering::Acquire);
-        if state != READY && state != FAILED {
-            return None;
-        }
-        let readings = std::mem::take(&mut self.readings);
+        let buffers = self.buffers.as_ref()?;
+        let (recorded, readings) = (self.recorded, &mut self.readings);
+        let cut_off = &mut self.cut_off;
         let mut probed = Probed {
-            pixel: self.recorded.pixel,
-            searched: self.recorded.search,
-            cut_off: std::mem::take(&mut self.cut_off),
+            pixel: recorded.pixel,
+            searched: recorded.search,
             ..Probed::default()
         };
-        if let Some(buffers) = self.buffers.as_ref().filter(|_| state == READY) {
-            if let Ok(view) = buffers.back.get_mapped_range(..) {
-                answer(&mut probed, readings, &view);
-            }
-            buffers.back.unmap();
-        }
-        self.state.store(IDLE, Ordering::Release);
+        self.back.take(&buffers.back, |bytes| {
+            answer(&mut probed, std::mem::take(readings), bytes);
+        })?;
+        readings.clear();
+        probed.cut_off = std::mem::take(cut_off);
         Some(probed)
     }
 }

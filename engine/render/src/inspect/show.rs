@@ -6,17 +6,15 @@ use std::collections::hash_map::Entry;
 use lightbench_assets::files::Files;
 
 use super::Between;
+use super::screen;
 use super::texels::{Aspect, BINDING, Texels};
 use crate::description::{PipelineDesc, Slice};
 use crate::format::Format;
 use crate::gpu::Gpu;
 use crate::problem::{Place, Problem};
-use crate::reflection::{FRAGMENT_ENTRY, SampleKind, VERTEX_ENTRY};
+use crate::reflection::SampleKind;
 
 const SHADER: &str = "shaders/inspect/show.wgsl";
-
-/// The picture's format: its values are coded as sRGB already.
-const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Which channels are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -262,18 +260,7 @@ impl Shower {
         };
         let picture = match self.picture.take() {
             Some(picture) if picture.size() == size => picture,
-            _ => self.gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("inspected target"),
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: PICTURE,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING
-                    | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[],
-            }),
+            _ => screen::canvas(&self.gpu, size),
         };
         let picture = self.picture.insert(picture);
         let shown = match self.shown.take() {
@@ -313,20 +300,7 @@ impl Shower {
         };
         let shown = self.shown.insert(shown);
 
-        let view = picture.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut render_pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("inspect"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations::default(),
-            })],
-            ..Default::default()
-        });
-        render_pass.set_pipeline(&display.pipeline);
-        render_pass.set_bind_group(0, &shown.group, &[]);
-        render_pass.draw(0..3, 0..1);
+        screen::paint(encoder, picture, &display.pipeline, &shown.group);
         Ok(())
     }
 }
@@ -334,8 +308,7 @@ impl Shower {
 fn display(gpu: &Gpu, files: &Files, texels: Texels) -> Result<Display, Problem> {
     let module = texels.module(gpu, files, SHADER)?;
     let build = || {
-        let layout = gpu
-            .device
+        gpu.device
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("inspect"),
                 entries: &[
@@ -351,39 +324,11 @@ fn display(gpu: &Gpu, files: &Files, texels: Texels) -> Result<Display, Problem>
                     },
                     texels.layout(wgpu::ShaderStages::FRAGMENT),
                 ],
-            });
-        let pipeline_layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("inspect"),
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            });
-        let pipeline = gpu
-            .device
-            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("inspect"),
-                layout: Some(&pipeline_layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(VERTEX_ENTRY),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: None,
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(FRAGMENT_ENTRY),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &[Some(PICTURE.into())],
-                }),
-                multiview_mask: None,
-                cache: None,
-            });
-        Display { layout, pipeline }
+            })
     };
-    gpu.guarded(build)
-        .map_err(|error| Problem::new(Place::file(SHADER), error))
+    let layout = gpu
+        .guarded(build)
+        .map_err(|error| Problem::new(Place::file(SHADER), error))?;
+    let pipeline = screen::pipeline(gpu, files, SHADER, &module, &layout)?;
+    Ok(Display { layout, pipeline })
 }

@@ -2,11 +2,11 @@
 
 use lightbench_assets::files::Files;
 
+use super::screen;
 use crate::description::{Define, Slice};
 use crate::gpu::Gpu;
-use crate::problem::{Place, Problem};
+use crate::problem::Problem;
 use crate::reflection::SampleKind;
-use crate::shader::ShaderComposer;
 use crate::targets::Target;
 
 /// The binding of the target.
@@ -139,16 +139,6 @@ impl Texels {
         files: &Files,
         path: &str,
     ) -> Result<wgpu::ShaderModule, Problem> {
-        let mut composer = ShaderComposer::new(files, gpu.capabilities())?;
-        let shader = composer.compose(files, path, &self.defines())?;
-        let source = wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module));
-        gpu.guarded(|| {
-            gpu.device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(path),
-                    source,
-                })
-        })
-        .map_err(|error| Problem::new(Place::file(path), error))
+        screen::module(gpu, files, path, &self.defines())
     }
 }
