@@ -154,6 +154,13 @@ fn honest_and_hostile_hand_ins_are_graded_side_by_side() {
         assert_eq!(points[student], pair("0", "no submission"), "{student}");
     }
     assert!(graded.stderr.contains("[9/9]"), "{}", graded.all());
+    // A student is told what to do, and nothing of where the hand-ins lie.
+    let page = fs::read_to_string(course.file("out/students/essay/page.html")).unwrap();
+    assert!(
+        page.contains("make the archive with `lightbench hand-in`"),
+        "{page}"
+    );
+    assert!(!page.contains("in/essay.zip"), "{page}");
     // The two that handed in the same file.
     let csv = fs::read_to_string(course.file("out/points.csv")).unwrap();
     for (student, other) in [("honest", "wrapped"), ("wrapped", "honest")] {

@@ -100,6 +100,18 @@ pub enum ArchiveError {
     },
 }
 
+impl ArchiveError {
+    /// What is wrong, for whoever sent the archive: without the place where it lies here.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Damaged { reason, .. } => format!("it is not a readable zip archive: {reason}"),
+            Self::Refused { entry, refusal, .. } => format!("`{entry}` is refused: {refusal}"),
+            Self::Disk { source, .. } => source.to_string(),
+        }
+    }
+}
+
 fn disk(path: &Path) -> impl FnOnce(io::Error) -> ArchiveError + use<> {
     let path = path.to_owned();
     move |source| ArchiveError::Disk { path, source }

@@ -33,7 +33,12 @@ pub fn overview(
     body += ".</p>\n";
     let looks = |record: &&Record| record.needs_a_person() || reasons.contains_key(&record.student);
     let (first, rest): (Vec<&Record>, Vec<&Record>) = records.iter().partition(looks);
-    for (heading, records) in [("To look at", first), ("The others", rest)] {
+    let others = if first.is_empty() {
+        "All"
+    } else {
+        "The others"
+    };
+    for (heading, records) in [("To look at", first), (others, rest)] {
         if records.is_empty() {
             continue;
         }

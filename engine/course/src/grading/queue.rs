@@ -279,7 +279,10 @@ impl Grader<'_> {
                     Err(GradeError::Disk { path, source })
                 }
                 refused => {
-                    record.ending = Ending::NoSubmission(refused.to_string());
+                    let reason = refused.reason();
+                    record.ending = Ending::NoSubmission(format!(
+                        "{reason}; make the archive with `lightbench hand-in`"
+                    ));
                     Ok(())
                 }
             };
