@@ -6,6 +6,7 @@ use lightbench::script::overlays::NewKind;
 use super::compare_actions::{self, CompareAction};
 use super::editor::Editor;
 use super::layout::Panel;
+use super::messages::{message, text};
 use super::panels::handles::Tool;
 use super::panels::marks::Mark;
 use super::panels::pipelines::favourites;
@@ -108,10 +109,18 @@ pub enum Action {
 pub struct Entry {
     /// What it does.
     pub action: Action,
-    /// Title in menus.
-    pub title: &'static str,
+    /// Message with its title in menus.
+    pub(super) message: &'static str,
     /// Its key, if it has one.
     pub shortcut: Option<KeyboardShortcut>,
+}
+
+impl Entry {
+    /// Title in menus.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        text(self.message)
+    }
 }
 
 pub(super) const fn key(key: Key) -> Option<KeyboardShortcut> {
@@ -134,224 +143,404 @@ pub(super) const fn shifted(key: Key) -> Option<KeyboardShortcut> {
 
 pub(super) const fn entry(
     action: Action,
-    title: &'static str,
+    message: &'static str,
     shortcut: Option<KeyboardShortcut>,
 ) -> Entry {
     Entry {
         action,
-        title,
+        message,
         shortcut,
     }
 }
 
-/// The menus, in their order, each with its groups of actions.
+/// The menus, in their order, each with the message of its title and its groups of actions.
 pub const MENUS: [(&str, &[&[Entry]]); 8] = [
     (
-        "File",
+        message!("menu.file"),
         &[
             &[
-                entry(Action::Palette, "Find an action", command(Key::P)),
-                entry(Action::Reload, "Reload everything", key(Key::F5)),
+                entry(
+                    Action::Palette,
+                    message!("action.find_an_action"),
+                    command(Key::P),
+                ),
+                entry(
+                    Action::Reload,
+                    message!("action.reload_everything"),
+                    key(Key::F5),
+                ),
             ],
             &[
-                entry(Action::Gallery, "Gallery", None),
-                entry(Action::OpenProject, "Open a project", None),
+                entry(Action::Gallery, message!("action.gallery"), None),
+                entry(Action::OpenProject, message!("action.open_a_project"), None),
                 // Before the key without Shift, which fits both.
                 entry(
                     Action::SaveScene,
-                    "Save the scene as",
+                    message!("action.save_the_scene_as"),
                     Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::S)),
                 ),
-                entry(Action::OpenScene, "Open a scene", command(Key::O)),
+                entry(
+                    Action::OpenScene,
+                    message!("action.open_a_scene"),
+                    command(Key::O),
+                ),
             ],
             &[
                 entry(
                     Action::EditScene,
-                    "Edit the scene's script",
+                    message!("action.edit_the_scene_s_script"),
                     command(Key::E),
                 ),
-                entry(Action::EditPipeline, "Edit the pipeline's file", None),
-                entry(Action::Save, "Save", command(Key::S)),
+                entry(
+                    Action::EditPipeline,
+                    message!("action.edit_the_pipeline_s_file"),
+                    None,
+                ),
+                entry(Action::Save, message!("action.save"), command(Key::S)),
             ],
-            &[entry(Action::Quit, "Quit", command(Key::Q))],
+            &[entry(
+                Action::Quit,
+                message!("action.quit"),
+                command(Key::Q),
+            )],
         ],
     ),
     (
-        "Edit",
+        message!("menu.edit"),
         &[
             &[
                 // Before the key without Shift, which fits both.
                 entry(
                     Action::Redo,
-                    "Redo",
+                    message!("action.redo"),
                     Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::Z)),
                 ),
-                entry(Action::Undo, "Undo", command(Key::Z)),
+                entry(Action::Undo, message!("action.undo"), command(Key::Z)),
             ],
             &[
-                entry(Action::Tool(Tool::Move), "Move", key(Key::M)),
-                entry(Action::Tool(Tool::Turn), "Rotate", key(Key::R)),
-                entry(Action::Tool(Tool::Scale), "Scale", key(Key::X)),
-                entry(Action::LocalAxes, "Local axes", key(Key::L)),
+                entry(
+                    Action::Tool(Tool::Move),
+                    message!("action.move"),
+                    key(Key::M),
+                ),
+                entry(
+                    Action::Tool(Tool::Turn),
+                    message!("action.rotate"),
+                    key(Key::R),
+                ),
+                entry(
+                    Action::Tool(Tool::Scale),
+                    message!("action.scale"),
+                    key(Key::X),
+                ),
+                entry(
+                    Action::LocalAxes,
+                    message!("action.local_axes"),
+                    key(Key::L),
+                ),
             ],
             &[entry(
                 Action::SelectNone,
-                "Choose nothing",
+                message!("action.choose_nothing"),
                 key(Key::Escape),
             )],
         ],
     ),
     (
-        "Entity",
+        message!("menu.entity"),
         &[
             &[
-                entry(Action::Create(NewKind::Empty), "Create empty", None),
-                entry(Action::Create(NewKind::Box), "Create box", None),
-                entry(Action::Create(NewKind::Sphere), "Create sphere", None),
-                entry(Action::Create(NewKind::Cylinder), "Create cylinder", None),
-                entry(Action::Create(NewKind::Cone), "Create cone", None),
-                entry(Action::Create(NewKind::Torus), "Create torus", None),
-                entry(Action::Create(NewKind::Plane), "Create plane", None),
+                entry(
+                    Action::Create(NewKind::Empty),
+                    message!("action.create_empty"),
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::Box),
+                    message!("action.create_box"),
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::Sphere),
+                    message!("action.create_sphere"),
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::Cylinder),
+                    message!("action.create_cylinder"),
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::Cone),
+                    message!("action.create_cone"),
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::Torus),
+                    message!("action.create_torus"),
+                    None,
+                ),
+                entry(
+                    Action::Create(NewKind::Plane),
+                    message!("action.create_plane"),
+                    None,
+                ),
             ],
             &[
                 entry(
                     Action::Create(NewKind::PointLight),
-                    "Create point light",
+                    message!("action.create_point_light"),
                     None,
                 ),
                 entry(
                     Action::Create(NewKind::SpotLight),
-                    "Create spot light",
+                    message!("action.create_spot_light"),
                     None,
                 ),
                 entry(
                     Action::Create(NewKind::DirectionalLight),
-                    "Create directional light",
+                    message!("action.create_directional_light"),
                     None,
                 ),
-                entry(Action::Create(NewKind::Camera), "Create camera", None),
+                entry(
+                    Action::Create(NewKind::Camera),
+                    message!("action.create_camera"),
+                    None,
+                ),
             ],
             &[
-                entry(Action::Duplicate, "Duplicate", command(Key::D)),
-                entry(Action::Delete, "Delete", key(Key::Delete)),
-                entry(Action::Rename, "Rename", key(Key::F2)),
-                entry(Action::Detach, "Put below nothing", None),
-                entry(Action::Hide, "Hide or show", key(Key::H)),
-                entry(Action::Lock, "Lock or unlock", None),
+                entry(
+                    Action::Duplicate,
+                    message!("action.duplicate"),
+                    command(Key::D),
+                ),
+                entry(Action::Delete, message!("action.delete"), key(Key::Delete)),
+                entry(Action::Rename, message!("action.rename"), key(Key::F2)),
+                entry(Action::Detach, message!("action.put_below_nothing"), None),
+                entry(Action::Hide, message!("action.hide_or_show"), key(Key::H)),
+                entry(Action::Lock, message!("action.lock_or_unlock"), None),
             ],
         ],
     ),
     (
-        "View",
+        message!("menu.view"),
         &[
             &[
-                entry(Action::FrameSelection, "Frame the selection", key(Key::F)),
+                entry(
+                    Action::FrameSelection,
+                    message!("action.frame_the_selection"),
+                    key(Key::F),
+                ),
                 // Before the key without Shift, which fits both.
-                entry(Action::ResetCamera, "Reset the camera", shifted(Key::Home)),
-                entry(Action::Frame, "Frame the scene", key(Key::Home)),
+                entry(
+                    Action::ResetCamera,
+                    message!("action.reset_the_camera"),
+                    shifted(Key::Home),
+                ),
+                entry(
+                    Action::Frame,
+                    message!("action.frame_the_scene"),
+                    key(Key::Home),
+                ),
             ],
             &[
-                entry(Action::Perspective, "Perspective", command(Key::Num0)),
+                entry(
+                    Action::Perspective,
+                    message!("action.perspective"),
+                    command(Key::Num0),
+                ),
                 entry(
                     Action::LookFrom(Side::Top),
-                    "Top, orthographic",
+                    message!("action.top_orthographic"),
                     command(Key::Num1),
                 ),
                 entry(
                     Action::LookFrom(Side::Front),
-                    "Front, orthographic",
+                    message!("action.front_orthographic"),
                     command(Key::Num2),
                 ),
                 entry(
                     Action::LookFrom(Side::Right),
-                    "Side, orthographic",
+                    message!("action.side_orthographic"),
                     command(Key::Num3),
                 ),
             ],
             &[
-                entry(Action::Mark(Mark::Grid), "Grid and axes", None),
-                entry(Action::Mark(Mark::Icons), "Lights and cameras", None),
-                entry(Action::Mark(Mark::Selection), "Bounds and ranges", None),
-                entry(Action::Mark(Mark::Handles), "Handles", None),
-            ],
-            &[
-                entry(Action::Mark(Mark::Edges), "Wireframe", None),
-                entry(Action::Mark(Mark::Normals), "Vertex normals", None),
                 entry(
-                    Action::Mark(Mark::OfChosen),
-                    "Lines of what is chosen alone",
+                    Action::Mark(Mark::Grid),
+                    message!("action.grid_and_axes"),
+                    None,
+                ),
+                entry(
+                    Action::Mark(Mark::Icons),
+                    message!("action.lights_and_cameras"),
+                    None,
+                ),
+                entry(
+                    Action::Mark(Mark::Selection),
+                    message!("action.bounds_and_ranges"),
+                    None,
+                ),
+                entry(
+                    Action::Mark(Mark::Handles),
+                    message!("action.handles"),
                     None,
                 ),
             ],
             &[
-                entry(Action::Toggle(Panel::Passes), "Passes", None),
-                entry(Action::Toggle(Panel::Targets), "Targets", None),
-                entry(Action::Toggle(Panel::Pixel), "Pixel", None),
-                entry(Action::Toggle(Panel::Pipeline), "Pipeline parameters", None),
-                entry(Action::Toggle(Panel::Pipelines), "All pipelines", None),
-                entry(Action::Toggle(Panel::Scene), "Scene parameters", None),
-                entry(Action::Toggle(Panel::Entities), "Entities", None),
-                entry(Action::Toggle(Panel::Log), "Log", None),
-                entry(Action::Toggle(Panel::Console), "Console", None),
-                entry(Action::Toggle(Panel::Actions), "Actions", None),
-                entry(Action::Toggle(Panel::Plots), "Plots", None),
-                entry(Action::Toggle(Panel::History), "History", None),
-                entry(Action::Toggle(Panel::Compare), "Comparison", None),
-                entry(Action::Toggle(Panel::Notebook), "Notebook", None),
-                entry(Action::Toggle(Panel::Code), "Code", None),
+                entry(
+                    Action::Mark(Mark::Edges),
+                    message!("action.wireframe"),
+                    None,
+                ),
+                entry(
+                    Action::Mark(Mark::Normals),
+                    message!("action.vertex_normals"),
+                    None,
+                ),
+                entry(
+                    Action::Mark(Mark::OfChosen),
+                    message!("action.lines_of_what_is_chosen_alone"),
+                    None,
+                ),
             ],
             &[
-                entry(Action::ResetLayout, "Reset the layout", None),
-                entry(Action::SwitchTheme, "Dark or light", command(Key::T)),
+                entry(
+                    Action::Toggle(Panel::Passes),
+                    message!("action.passes"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Targets),
+                    message!("action.targets"),
+                    None,
+                ),
+                entry(Action::Toggle(Panel::Pixel), message!("action.pixel"), None),
+                entry(
+                    Action::Toggle(Panel::Pipeline),
+                    message!("action.pipeline_parameters"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Pipelines),
+                    message!("action.all_pipelines"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Scene),
+                    message!("action.scene_parameters"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Entities),
+                    message!("action.entities"),
+                    None,
+                ),
+                entry(Action::Toggle(Panel::Log), message!("action.log"), None),
+                entry(
+                    Action::Toggle(Panel::Console),
+                    message!("action.console"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Actions),
+                    message!("action.actions"),
+                    None,
+                ),
+                entry(Action::Toggle(Panel::Plots), message!("action.plots"), None),
+                entry(
+                    Action::Toggle(Panel::History),
+                    message!("action.history"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Compare),
+                    message!("action.comparison"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Notebook),
+                    message!("action.notebook"),
+                    None,
+                ),
+                entry(Action::Toggle(Panel::Code), message!("action.code"), None),
+            ],
+            &[
+                entry(
+                    Action::ResetLayout,
+                    message!("action.reset_the_layout"),
+                    None,
+                ),
+                entry(
+                    Action::SwitchTheme,
+                    message!("action.dark_or_light"),
+                    command(Key::T),
+                ),
             ],
         ],
     ),
     (
-        "Pipeline",
+        message!("menu.pipeline"),
         &[
             &[
                 entry(
                     Action::PassBefore,
-                    "Picture after the pass before",
+                    message!("action.picture_after_the_pass_before"),
                     command(Key::OpenBracket),
                 ),
                 entry(
                     Action::PassAfter,
-                    "Picture after the next pass",
+                    message!("action.picture_after_the_next_pass"),
                     command(Key::CloseBracket),
                 ),
-                entry(Action::WholeFrame, "Picture after all passes", None),
+                entry(
+                    Action::WholeFrame,
+                    message!("action.picture_after_all_passes"),
+                    None,
+                ),
             ],
             &[
                 entry(
                     Action::PreviousPipeline,
-                    "Previous pipeline",
+                    message!("action.previous_pipeline"),
                     key(Key::OpenBracket),
                 ),
                 entry(
                     Action::NextPipeline,
-                    "Next pipeline",
+                    message!("action.next_pipeline"),
                     key(Key::CloseBracket),
                 ),
             ],
         ],
     ),
-    ("Compare", compare_actions::MENU),
+    (message!("menu.compare"), compare_actions::MENU),
     (
-        "Time",
+        message!("menu.time"),
         &[&[
-            entry(Action::PlayPause, "Play or pause", key(Key::Space)),
-            entry(Action::Step, "Step", key(Key::Period)),
-            entry(Action::Stop, "Stop", command(Key::Period)),
-            entry(Action::Rewind, "Back to the beginning", key(Key::Backspace)),
+            entry(
+                Action::PlayPause,
+                message!("action.play_or_pause"),
+                key(Key::Space),
+            ),
+            entry(Action::Step, message!("action.step"), key(Key::Period)),
+            entry(Action::Stop, message!("action.stop"), command(Key::Period)),
+            entry(
+                Action::Rewind,
+                message!("action.back_to_the_beginning"),
+                key(Key::Backspace),
+            ),
         ]],
     ),
     (
-        "Help",
+        message!("menu.help"),
         &[&[
-            entry(Action::Welcome, "Welcome", None),
-            entry(Action::Help, "Mouse and keys", key(Key::F1)),
-            entry(Action::About, "About Lightbench", None),
+            entry(Action::Welcome, message!("action.welcome"), None),
+            entry(
+                Action::Help,
+                message!("action.mouse_and_keys"),
+                key(Key::F1),
+            ),
+            entry(Action::About, message!("action.about_lightbench"), None),
         ]],
     ),
 ];

@@ -5,6 +5,7 @@ use egui::Key;
 use super::actions::{Action, Entry, command, entry, key, shifted};
 use super::editor::Editor;
 use super::layout::Panel;
+use super::messages::message;
 use super::panels::compare::report;
 use super::panels::notebook;
 use super::panels::view_text::{self, PasteWindow};
@@ -55,56 +56,92 @@ const STEP: f32 = 0.02;
 
 const fn compare(
     action: CompareAction,
-    title: &'static str,
+    message: &'static str,
     shortcut: Option<egui::KeyboardShortcut>,
 ) -> Entry {
-    entry(Action::Compare(action), title, shortcut)
+    entry(Action::Compare(action), message, shortcut)
 }
 
 /// The menu.
 pub const MENU: &[&[Entry]] = &[
     &[
         // Before the key without Shift, which fits both.
-        compare(CompareAction::Swap, "Swap A and B", shifted(Key::C)),
-        compare(CompareAction::OnOff, "Compare two pipelines", key(Key::C)),
-        compare(CompareAction::Like, "Give B what A has", None),
+        compare(
+            CompareAction::Swap,
+            message!("action.swap_a_and_b"),
+            shifted(Key::C),
+        ),
+        compare(
+            CompareAction::OnOff,
+            message!("action.compare_two_pipelines"),
+            key(Key::C),
+        ),
+        compare(
+            CompareAction::Like,
+            message!("action.give_b_what_a_has"),
+            None,
+        ),
     ],
     &[
-        compare(CompareAction::Show(Mode::Split), "Compare by a split", None),
+        compare(
+            CompareAction::Show(Mode::Split),
+            message!("action.compare_by_a_split"),
+            None,
+        ),
         compare(
             CompareAction::Show(Mode::Flicker),
-            "Compare by flicker",
+            message!("action.compare_by_flicker"),
             None,
         ),
         compare(
             CompareAction::Show(Mode::Difference),
-            "Compare by difference",
+            message!("action.compare_by_difference"),
             None,
         ),
-        compare(CompareAction::Show(Mode::Flip), "Compare by FLIP", None),
+        compare(
+            CompareAction::Show(Mode::Flip),
+            message!("action.compare_by_flip"),
+            None,
+        ),
     ],
     &[
-        compare(CompareAction::Other, "Show the other picture", key(Key::B)),
+        compare(
+            CompareAction::Other,
+            message!("action.show_the_other_picture"),
+            key(Key::B),
+        ),
         compare(
             CompareAction::SplitLeft,
-            "Move the split to the left",
+            message!("action.move_the_split_to_the_left"),
             shifted(Key::ArrowLeft),
         ),
         compare(
             CompareAction::SplitRight,
-            "Move the split to the right",
+            message!("action.move_the_split_to_the_right"),
             shifted(Key::ArrowRight),
         ),
     ],
     &[
-        compare(CompareAction::CopyView, "Copy view", command(Key::L)),
-        compare(CompareAction::PasteView, "Paste view", command(Key::G)),
+        compare(
+            CompareAction::CopyView,
+            message!("action.copy_view"),
+            command(Key::L),
+        ),
+        compare(
+            CompareAction::PasteView,
+            message!("action.paste_view"),
+            command(Key::G),
+        ),
         compare(
             CompareAction::Keep,
-            "Keep this measurement",
+            message!("action.keep_this_measurement"),
             command(Key::K),
         ),
-        compare(CompareAction::Report, "Report of what is on screen", None),
+        compare(
+            CompareAction::Report,
+            message!("action.report_of_what_is_on_screen"),
+            None,
+        ),
     ],
 ];
 

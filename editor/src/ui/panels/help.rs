@@ -58,7 +58,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
                         let Some(shortcut) = &entry.shortcut else {
                             continue;
                         };
-                        ui.label(entry.title);
+                        ui.label(entry.title());
                         ui.label(RichText::new(key_text(ui.ctx(), shortcut)).monospace());
                         ui.end_row();
                     }

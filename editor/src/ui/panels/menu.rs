@@ -5,19 +5,20 @@ use egui::{Button, MenuBar, Ui};
 use crate::ui::actions::{Action, MENUS, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
+use crate::ui::messages::{message, text};
 use crate::ui::panels::palette::scene_title;
 use crate::ui::panels::pipelines::{favourites, key_of};
 
 /// Draws the menu bar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     MenuBar::new().ui(ui, |ui| {
-        for (title, groups) in &MENUS {
-            ui.menu_button(*title, |ui| {
+        for (menu, groups) in &MENUS {
+            ui.menu_button(text(menu), |ui| {
                 ui.set_min_width(230.0);
-                if *title == "Pipeline" {
+                if *menu == message!("menu.pipeline") {
                     pipelines(editor, ui);
                 }
-                if *title == "File" {
+                if *menu == message!("menu.file") {
                     scenes_of_late(editor, ui);
                 }
                 for (index, group) in groups.iter().enumerate() {
@@ -33,7 +34,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                             Action::Compare(action) => action.is_in_force(&editor.workbench),
                             _ => false,
                         };
-                        let mut button = Button::new(entry.title).selected(mark);
+                        let mut button = Button::new(entry.title()).selected(mark);
                         if let Some(shortcut) = &entry.shortcut {
                             button = button.shortcut_text(key_text(ui.ctx(), shortcut));
                         }

@@ -34,7 +34,7 @@ fn all(editor: &Editor, ctx: &Context) -> Vec<Line> {
     let actions = entries()
         .filter(|entry| entry.action != Action::Palette)
         .map(|entry| Line {
-            title: entry.title.to_owned(),
+            title: entry.title().to_owned(),
             key: entry
                 .shortcut
                 .map_or_else(String::new, |shortcut| key_text(ctx, &shortcut)),
