@@ -303,6 +303,11 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                     None,
                 ),
                 entry(
+                    Action::Create(NewKind::AmbientLight),
+                    message!("action.create_ambient_light"),
+                    None,
+                ),
+                entry(
                     Action::Create(NewKind::Camera),
                     message!("action.create_camera"),
                     None,
@@ -434,6 +439,21 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                 entry(
                     Action::Toggle(Panel::Entities),
                     message!("action.entities"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Materials),
+                    message!("action.materials"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Assets),
+                    message!("action.assets"),
+                    None,
+                ),
+                entry(
+                    Action::Toggle(Panel::Environment),
+                    message!("action.environment"),
                     None,
                 ),
                 entry(Action::Toggle(Panel::Log), message!("action.log"), None),

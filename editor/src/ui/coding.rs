@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use lightbench::assets::files::create_project;
 use lightbench::render::Place;
+use lightbench::script::overlays::AssetEdit;
 use lightbench::script::{PIPELINES, SCENES};
 
 use super::code::document::{Document, SaveError};
@@ -179,6 +180,8 @@ impl Editor {
             let paths: Vec<String> = touched.paths.into_iter().collect();
             let changed = (!touched.everything).then_some(paths.as_slice());
             self.code.refresh(self.workbench.files(), changed);
+            self.pictures.files_changed(&paths);
+            self.assets.shelves.forget();
         }
         for error in self.code.note(now) {
             self.workbench.log.error(error);
@@ -195,6 +198,7 @@ impl Editor {
         let project = self.workbench.files().project();
         let begin_at = match question {
             Question::Project => project.and_then(Path::parent).map(Path::to_owned),
+            Question::Picture | Question::Texture | Question::Model => project.map(Path::to_owned),
             Question::Scene | Question::SaveScene => project
                 .map(|project| project.join(SCENES))
                 .filter(|folder| folder.is_dir()),
@@ -213,6 +217,9 @@ impl Editor {
                 Ok(())
             }
             Question::Project => self.try_to_open_project(&path),
+            Question::Picture => self.take_picture(&path),
+            Question::Texture => self.add_texture(&path),
+            Question::Model => self.add_model(&path),
             Question::Scene => self.try_to_open_file(&path),
             Question::SaveScene => self.save_scene_to(&path),
         };
@@ -252,6 +259,31 @@ impl Editor {
         let (files, gpu) = (workbench.files(), workbench.gpu_options());
         self.gallery
             .tend(&workbench.library, files, gpu, workbench.wake());
+    }
+
+    /// Lets pictures of assets be made.
+    pub(super) fn tend_pictures(&mut self, ctx: &egui::Context) {
+        let works = ctx.input(|input| input.pointer.any_down() || !input.events.is_empty());
+        if works {
+            self.pictures.hold();
+        }
+        let workbench = &self.workbench;
+        let (files, gpu) = (workbench.files(), workbench.gpu_options());
+        self.pictures.tend(files, gpu, workbench.wake());
+    }
+
+    /// Adds a picture of a file to the scene's textures.
+    fn add_texture(&mut self, file: &Path) -> Result<(), String> {
+        let path = self.workbench.import_picture(file)?;
+        let recipe = format!("picture({path:?})");
+        self.workbench
+            .change_assets(AssetEdit::NewTexture { recipe })
+    }
+
+    /// Adds a model of a file to the scene.
+    fn add_model(&mut self, file: &Path) -> Result<(), String> {
+        let path = self.workbench.let_in(file)?;
+        self.workbench.add_model(&path)
     }
 
     fn save_scene_to(&mut self, path: &Path) -> Result<(), String> {

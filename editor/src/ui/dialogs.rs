@@ -11,6 +11,8 @@ use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
 use lightbench::script::SCENE_EXTENSION;
 use rfd::{AsyncFileDialog, FileHandle};
 
+use super::messages::say;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
@@ -18,6 +20,12 @@ pub enum Question {
     Project,
     /// A scene, a pipeline or a model.
     Scene,
+    /// A picture for materials.
+    Picture,
+    /// A picture for the scene.
+    Texture,
+    /// A model to add to the scene.
+    Model,
     /// Where to write the scene on screen.
     SaveScene,
 }
@@ -27,6 +35,8 @@ impl Question {
         match self {
             Self::Project => "Open a project",
             Self::Scene => "Open a scene",
+            Self::Picture | Self::Texture => say!("assets.ask_picture"),
+            Self::Model => say!("assets.ask_model"),
             Self::SaveScene => "Save the scene as",
         }
     }
@@ -39,6 +49,8 @@ impl Question {
             Self::Scene => {
                 "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb)."
             }
+            Self::Picture | Self::Texture => say!("assets.ask_picture_about"),
+            Self::Model => say!("assets.ask_model_about"),
             Self::SaveScene => "The file to write. It ends in .scene and holds the entities.",
         }
     }
@@ -110,6 +122,16 @@ impl Dialogs {
             Question::Scene => {
                 let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
                 Box::pin(dialog.add_filter("Scenes and models", &endings).pick_file())
+            }
+            Question::Picture | Question::Texture => {
+                let endings = ["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"];
+                let title = say!("assets.pictures");
+                Box::pin(dialog.add_filter(title, &endings).pick_file())
+            }
+            Question::Model => {
+                let endings = ["obj", "gltf", "glb"];
+                let title = say!("assets.models");
+                Box::pin(dialog.add_filter(title, &endings).pick_file())
             }
             Question::SaveScene => {
                 let dialog = dialog.add_filter("Scenes", &[SCENE_EXTENSION]);

@@ -14,16 +14,19 @@ use super::dialogs::{Dialogs, Question};
 use super::gallery::Gallery;
 use super::kept::Kept;
 use super::layout::{self, Panel};
+use super::panels::assets::AssetsPanel;
 use super::panels::code::CodePanel;
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
 use super::panels::marks::Marks;
+use super::panels::materials::MaterialsPanel;
 use super::panels::notebook::NotebookPanel;
 use super::panels::palette::Palette;
 use super::panels::plots::PlotsPanel;
 use super::panels::view_text::PasteWindow;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
+use super::pictures::Pictures;
 use super::screen::Screen;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
@@ -37,6 +40,10 @@ pub struct Editor {
     pub(super) passes: PassesPanel,
     pub(super) targets: TargetsPanel,
     pub(super) entities: EntitiesPanel,
+    pub(super) materials: MaterialsPanel,
+    pub(super) assets: AssetsPanel,
+    /// Pictures of materials, meshes and textures.
+    pub pictures: Pictures,
     pub(super) console: ConsolePanel,
     pub(super) plots: PlotsPanel,
     /// The files that are open.
@@ -104,6 +111,9 @@ impl Editor {
             passes: PassesPanel::default(),
             targets: TargetsPanel::default(),
             entities: EntitiesPanel::default(),
+            materials: MaterialsPanel::default(),
+            assets: AssetsPanel::default(),
+            pictures: Pictures::default(),
             console: ConsolePanel::default(),
             plots: PlotsPanel::default(),
             viewport: ViewportPanel::default(),
@@ -130,6 +140,7 @@ impl Editor {
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
+        self.pictures.forget();
         self.workbench.move_to(gpu);
     }
 
@@ -176,6 +187,7 @@ impl Editor {
         if let Some(panel) = brought.filter(|panel| layout::is_visible(&self.layout, *panel)) {
             layout::set_visible(&mut self.layout, panel, true);
         }
+        self.tend_pictures(&ctx);
         panels::help::show(self, &ctx);
         panels::welcome::show(self, &ctx);
         panels::gallery::show(self, &ctx);
@@ -370,6 +382,9 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Pipelines => panels::pipelines::show(self.editor, ui),
             Panel::Scene => panels::parameters::scene(self.editor, ui),
             Panel::Entities => panels::entities::show(self.editor, ui),
+            Panel::Materials => panels::materials::show(self.editor, ui),
+            Panel::Assets => panels::assets::show(self.editor, ui),
+            Panel::Environment => panels::environment::show(self.editor, ui),
             Panel::Log => panels::log::show(self.editor, ui),
             Panel::Console => panels::console::show(self.editor, ui),
             Panel::Actions => panels::actions::show(self.editor, ui),

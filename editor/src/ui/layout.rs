@@ -1,5 +1,6 @@
 //! Which panels there are and how they lie.
 
+use super::messages::say;
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
 /// A panel.
@@ -21,6 +22,12 @@ pub enum Panel {
     Scene,
     /// The entities, and the fields of one.
     Entities,
+    /// The materials, and what one says of a surface.
+    Materials,
+    /// Materials, meshes and textures with their pictures.
+    Assets,
+    /// What a scene has beside its things.
+    Environment,
     /// What happened.
     Log,
     /// Lines of scene script.
@@ -51,6 +58,9 @@ impl Panel {
             Self::Pipelines => "All pipelines",
             Self::Scene => "Scene",
             Self::Entities => "Entities",
+            Self::Materials => say!("materials.title"),
+            Self::Assets => say!("assets.title"),
+            Self::Environment => say!("environment.title"),
             Self::Log => "Log",
             Self::Console => "Console",
             Self::Actions => "Actions",
@@ -90,7 +100,14 @@ pub fn first() -> Tree<Panel> {
         Panel::Compare,
     ]);
     let passes = tabs(&[Panel::Passes]);
-    let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
+    let targets = tabs(&[
+        Panel::Targets,
+        Panel::Pixel,
+        Panel::Entities,
+        Panel::Materials,
+        Panel::Assets,
+        Panel::Environment,
+    ]);
     let left = split(
         &mut tiles,
         LinearDir::Vertical,

@@ -16,6 +16,7 @@ pub mod layout;
 pub mod lens;
 pub(crate) mod messages;
 mod panels;
+mod pictures;
 mod screen;
 mod surface;
 pub mod theme;

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod assets;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -168,6 +170,7 @@ impl Desk {
         let scenes = folder.path().join("scripts/scenes");
         std::fs::create_dir_all(&scenes).unwrap();
         std::fs::write(scenes.join("room.rhai"), SCENE).unwrap();
+        std::fs::write(folder.path().join("leaf.obj"), assets::MODEL).unwrap();
         let files = Files::with_project(folder.path()).unwrap();
         let gpu = Gpu::open(&GpuOptions::default()).unwrap();
         let options = EditorOptions {
@@ -262,7 +265,7 @@ impl Desk {
     }
 
     fn do_something(&mut self) {
-        let result = match self.random.below(100) {
+        let result = match self.random.below(130) {
             0..12 if self.entities().len() < MOST => {
                 let kind = NewKind::ALL[self.random.below(NewKind::ALL.len())];
                 self.workbench.create(kind)
@@ -317,6 +320,7 @@ impl Desk {
                 self.workbench.reset_all_fields();
                 Ok(())
             }
+            100..130 => self.change_assets(),
             86..94 => {
                 for _ in 0..1 + self.random.below(6) {
                     self.counts.undone += usize::from(self.workbench.undo());

@@ -100,15 +100,38 @@ impl<T> Table<T> {
         Ok(revision)
     }
 
+    /// Drops the items from a place on.
+    fn truncate(&mut self, count: usize) {
+        self.entries.truncate(count);
+        let dropped = self.names.split_off(count.min(self.names.len()));
+        for name in dropped {
+            match self.names.iter().rposition(|other| *other == name) {
+                Some(latest) => self.by_name.insert(name, latest as u32),
+                None => self.by_name.remove(&name),
+            };
+        }
+    }
+
     fn get(&self, index: u32) -> Option<&T> {
         self.entries.get(index as usize).map(|entry| &entry.value)
     }
 }
 
+/// How many items [`Assets`] have of each kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AssetCounts {
+    /// Meshes.
+    pub meshes: usize,
+    /// Materials.
+    pub materials: usize,
+    /// Textures.
+    pub textures: usize,
+}
+
 /// All meshes, materials and textures of a scene.
 ///
-/// Items are never removed, so that ids stay valid; they may be replaced, as
-/// when a file changes on the disk. Meshes and textures are shared, so that a
+/// Items are not removed while others come behind them, so that ids stay valid;
+/// they may be replaced, as when a file changes on the disk. Meshes and textures are shared, so that a
 /// clone costs only the tables. Several items may have one name: it finds the
 /// latest.
 ///
@@ -236,6 +259,30 @@ impl Assets {
         let name = texture.name.clone();
         self.revision = self.textures.replace(id.0, &name, Arc::new(texture))?;
         Ok(())
+    }
+
+    /// How many items there are.
+    #[must_use]
+    pub fn counts(&self) -> AssetCounts {
+        AssetCounts {
+            meshes: self.meshes.entries.len(),
+            materials: self.materials.entries.len(),
+            textures: self.textures.entries.len(),
+        }
+    }
+
+    /// Drops what was added since there were so many items, as when its making is taken back. The
+    /// default material and the placeholder stay. Ids of what is dropped belong to nothing, until
+    /// something else is added.
+    pub fn truncate(&mut self, counts: AssetCounts) {
+        if self.counts() == counts {
+            return;
+        }
+        self.revision = next_revision();
+        self.meshes.truncate(counts.meshes);
+        self.bounds.truncate(counts.meshes);
+        self.materials.truncate(counts.materials.max(1));
+        self.textures.truncate(counts.textures.max(1));
     }
 
     /// The mesh of an id.
@@ -395,6 +442,33 @@ mod tests {
         assert_eq!(assets.find_mesh("b"), Some(second));
         assert_eq!(assets.find_material("default"), Some(MaterialId(0)));
         assert_eq!(assets.find_texture("placeholder"), Some(TextureId(0)));
+    }
+
+    #[test]
+    fn what_was_added_last_can_be_dropped() {
+        let mut assets = Assets::new();
+        let first = assets.add_mesh(mesh("a"));
+        let (counts, revision) = (assets.counts(), assets.revision());
+        assets.truncate(counts);
+        assert_eq!(assets.revision(), revision, "nothing has changed");
+        assets.add_mesh(mesh("a"));
+        assets.add_mesh(mesh("b"));
+        assets.add_material(Material::default());
+        assets.truncate(counts);
+        assert_eq!(assets.counts(), counts);
+        assert_eq!(assets.mesh_bounds().len(), 1);
+        assert!(assets.revision() > revision);
+        assert_eq!(assets.find_mesh("a"), Some(first));
+        assert_eq!(assets.find_mesh("b"), None);
+        assert_eq!(assets.find_material("default"), Some(MaterialId(0)));
+        let none = AssetCounts {
+            meshes: 0,
+            materials: 0,
+            textures: 0,
+        };
+        assets.truncate(none);
+        assert_eq!(assets.material(MaterialId(0)), Some(&Material::default()));
+        assert!(assets.texture(TextureId::PLACEHOLDER).is_some());
     }
 
     #[test]

@@ -68,7 +68,7 @@ mod tangents;
 mod texture;
 pub mod watch;
 
-pub use assets::{Assets, Entry, Shared, UnknownAsset};
+pub use assets::{AssetCounts, Assets, Entry, Shared, UnknownAsset};
 pub use digest::Digest;
 pub use lightbench_world::{MaterialId, MeshBounds, MeshId};
 pub use material::Material;

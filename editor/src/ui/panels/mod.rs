@@ -1,10 +1,12 @@
 //! The panels of the window.
 
 pub mod actions;
+pub mod assets;
 pub mod code;
 pub mod compare;
 pub mod console;
 pub mod entities;
+pub mod environment;
 pub mod gallery;
 pub mod handles;
 pub mod heat_map;
@@ -13,6 +15,7 @@ pub mod histogram;
 pub mod history;
 pub mod log;
 pub mod marks;
+pub mod materials;
 pub mod menu;
 pub mod notebook;
 pub mod palette;

@@ -5,6 +5,7 @@
 //! last good picture goes on. [`Workbench::tick`] takes in what they finished and
 //! [`Workbench::draw`] draws if something changed.
 
+mod assets;
 pub mod beside;
 pub mod camera;
 pub mod clock;

@@ -332,7 +332,10 @@ impl Workbench {
         Some(edit.clone())
     }
 
-    fn chosen(&self, name: fn(&World, &[Entity]) -> Vec<Who>) -> Result<Vec<Who>, String> {
+    pub(super) fn chosen(
+        &self,
+        name: fn(&World, &[Entity]) -> Vec<Who>,
+    ) -> Result<Vec<Who>, String> {
         let scene = self.scenes.scene().ok_or_else(no_scene)?;
         let chosen: Vec<Entity> = self.selection.entities().collect();
         Ok(name(&scene.world, &chosen))
@@ -346,6 +349,12 @@ impl Workbench {
                 .map_or_else(String::new, Who::words),
             (all, _) => format!("{} entities", all.len()),
         }
+    }
+
+    /// Takes note of a change that may go on, as while a slider is dragged.
+    pub(super) fn note_growing(&mut self, edit: Edit) {
+        self.undo.seal();
+        self.undo.note(edit.words(), vec![done(edit)]);
     }
 
     fn note_structure(&mut self, what: String, changes: Vec<Change>) {

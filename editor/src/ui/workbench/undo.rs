@@ -112,6 +112,32 @@ impl Undo {
         *self = Self::default();
     }
 
+    /// The change of the structure that makes up the step that goes on.
+    pub(super) fn growing(&self) -> Option<&Edit> {
+        let last = self.done.last().filter(|_| self.goes_on)?;
+        match last.changes.as_slice() {
+            [
+                Change {
+                    target: Target::Structure,
+                    after: Some(Content::Edit(edit)),
+                    ..
+                },
+            ] => Some(edit),
+            _ => None,
+        }
+    }
+
+    /// Puts another change in the place of that one.
+    pub(super) fn regrow(&mut self, edit: Edit) {
+        if let Some(change) = self
+            .done
+            .last_mut()
+            .and_then(|last| last.changes.first_mut())
+        {
+            change.after = Some(Content::Edit(Box::new(edit)));
+        }
+    }
+
     /// Takes note of changes that belong together.
     pub(super) fn note(&mut self, what: String, changes: Vec<Change>) {
         if self.goes_on

@@ -46,6 +46,24 @@ impl Files {
             .map(|(path, origin)| Listed { path, origin })
             .collect())
     }
+    /// All files of the project with one of some extensions, sorted by path, as in [`Files::list`];
+    /// none without a project. Folders of what is built and written, `target` and `reports`, are left out.
+    ///
+    /// # Errors
+    /// A folder that can't be read.
+    pub fn list_project(&self, extensions: &[&str]) -> Result<Vec<Listed>, FileError> {
+        let mut found = BTreeMap::new();
+        if let Some(project) = self.project() {
+            for extension in extensions {
+                collect(project, "", extension, MAX_DEPTH, &mut found)?;
+            }
+        }
+        let outside = |path: &String| path.starts_with("target/") || path.starts_with("reports/");
+        let listed = found.into_iter().filter(|(path, _)| !outside(path));
+        Ok(listed
+            .map(|(path, origin)| Listed { path, origin })
+            .collect())
+    }
 }
 
 fn collect(
@@ -67,7 +85,10 @@ fn collect(
         let Some(name) = name.to_str().filter(|name| !name.starts_with('.')) else {
             continue;
         };
-        let path = format!("{folder}/{name}");
+        let path = match folder {
+            "" => name.to_owned(),
+            folder => format!("{folder}/{name}"),
+        };
         let Ok(kind) = entry.file_type() else {
             continue;
         };

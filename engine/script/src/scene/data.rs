@@ -16,6 +16,7 @@ use super::models::Models;
 use super::pipeline_choice::Chosen;
 use super::plots::Plots;
 use super::recipes::Recipes;
+use super::shelf::Shelf;
 use super::state::{KeptBehaviour, State};
 use crate::api::{Mistake, ScriptType};
 use crate::limits::{Limits, Watch};
@@ -42,6 +43,8 @@ pub(super) struct Data {
     pub(super) progress: Progress,
     /// How the assets were made.
     pub(super) recipes: Recipes,
+    /// Which assets count beside those that are used.
+    pub(super) shelf: Shelf,
     /// Models that were read.
     pub(super) models: Models,
     /// What happens outside.
@@ -97,6 +100,7 @@ impl Stage {
             log: log.clone(),
             progress: progress.clone(),
             recipes: Recipes::default(),
+            shelf: Shelf::default(),
             models: Models::default(),
             input: Input::default(),
             chosen: Chosen::default(),

@@ -28,6 +28,7 @@ mod saved;
 mod script;
 mod selection;
 mod shapes;
+mod shelf;
 mod snapshot;
 mod state;
 mod tables;
@@ -36,6 +37,7 @@ mod textures;
 mod values;
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lightbench_assets::files::Files;
@@ -320,6 +322,12 @@ impl Scene {
         let cameras = self.world.columns::<Camera>();
         let active = cameras.slices().active.iter().position(|active| *active);
         active.map(|row| cameras.entities()[row])
+    }
+
+    /// Lets in the folders that files of the program have let in since the scene was loaded: see
+    /// [`Files::grant`].
+    pub fn let_in(&mut self, folders: &[PathBuf]) {
+        self.stage.lock().files.grant_again(folders);
     }
 
     /// Every file that the scene came from: scripts, models with the files that they name, and

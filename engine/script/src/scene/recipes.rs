@@ -1,6 +1,6 @@
 //! How assets were made, in the words of scripts: what scene files keep of them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use lightbench_assets::{Material, MeshId, Reflection, TextureId};
 use lightbench_world::glam::Vec3;
@@ -13,6 +13,20 @@ use crate::api::{Arguments, spell_call, spell_number, spell_text};
 pub(super) struct Recipes {
     pub(super) meshes: HashMap<MeshId, MeshRecipe>,
     pub(super) textures: HashMap<TextureId, String>,
+    /// Textures that are the normals that belong to a call's colours, or a picture taken as such.
+    pub(super) normals: BTreeSet<TextureId>,
+}
+
+impl Recipes {
+    /// The first texture that the same calls have made, of colours or of normals.
+    pub(super) fn texture(&self, calls: &str, normals: bool) -> Option<TextureId> {
+        // A model's picture is what it is taken for.
+        let either = calls.starts_with("model_texture(");
+        let same = self.textures.iter().filter(|(id, known)| {
+            *known == calls && (either || self.normals.contains(id) == normals)
+        });
+        same.map(|(id, _)| *id).min()
+    }
 }
 
 /// The calls that made a mesh.

@@ -11,7 +11,7 @@
 //!
 //! A script's `update` is not part of a saved scene; components that move entities are.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::hash::Hash;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -31,6 +31,7 @@ use super::materials::Material;
 use super::recipes::{self, MeshRecipe, Recipes};
 use super::script::OwnScript;
 use super::shapes::{MeshHandle, Shape};
+use super::shelf::{AssetId, Marks, Shelf};
 use super::state::KeptState;
 use super::textures::Pattern;
 use crate::api::{Api, Mistake};
@@ -82,6 +83,7 @@ pub(super) fn load(
         path,
         meshes: HashMap::new(),
         materials: HashMap::new(),
+        defined: Vec::new(),
     };
     let world = scene_file::read(&text, &mut maker).map_err(|error| match error {
         SceneError::Text { line, message } => {
@@ -97,6 +99,8 @@ pub(super) fn load(
         );
         return Err(Problem::new(Place::file(path), message).into());
     }
+    let unused = maker.unused(&world);
+    keep_unused(&stage, unused).map_err(|message| Problem::new(Place::file(path), message))?;
     stage.lock().world = world;
     let mut scene = Scene::new(path.to_owned(), host, stage, OwnScript::default());
     scene.finish()?;
@@ -113,9 +117,48 @@ struct Maker<'a> {
     path: &'a str,
     meshes: HashMap<String, MeshId>,
     materials: HashMap<String, MaterialId>,
+    /// Textures in the order of the file.
+    defined: Vec<Pattern>,
+}
+
+/// What a file defines and nothing in it uses: it is written again.
+struct Unused {
+    assets: Vec<AssetId>,
+    textures: Vec<Pattern>,
+}
+
+fn keep_unused(stage: &Stage, unused: Unused) -> Result<(), String> {
+    let mut data = stage.lock();
+    let mut assets = unused.assets;
+    for texture in unused.textures.iter().filter(|one| one.is_unpainted()) {
+        let id = texture
+            .color(&mut data)
+            .map_err(|mistake| mistake.message)?;
+        assets.push(AssetId::Texture(id));
+    }
+    for id in assets {
+        let marks = Marks {
+            kept: true,
+            gone: false,
+        };
+        data.shelf.mark(id, marks);
+    }
+    Ok(())
 }
 
 impl Maker<'_> {
+    fn unused(self, world: &World) -> Unused {
+        let (meshes, materials) = used(world);
+        let own = self.meshes.into_values();
+        let own = own.filter(|id| !meshes.contains(id)).map(AssetId::Mesh);
+        let surfaces = self.materials.into_values();
+        let surfaces = surfaces.filter(|id| !materials.contains(id));
+        Unused {
+            assets: own.chain(surfaces.map(AssetId::Material)).collect(),
+            textures: self.defined,
+        }
+    }
+
     fn make(&self, recipe: &str) -> Result<Dynamic, String> {
         let engine = &self.host.engine;
         let made = engine
@@ -154,6 +197,7 @@ impl AssetNames for Maker<'_> {
             }
             _ => {
                 let texture = made.read_lock::<Pattern>().ok_or_else(wrong)?;
+                self.defined.push(texture.clone());
                 let mut textures = self.textures.lock().unwrap_or_else(PoisonError::into_inner);
                 textures.insert(name.to_owned(), texture.clone()).is_none()
             }
@@ -189,7 +233,17 @@ impl AssetNames for Maker<'_> {
 /// The name of the material that is always there.
 const DEFAULT_MATERIAL: &str = "default";
 
-/// The names and recipes of the assets that a world uses.
+/// The meshes and materials that entities have.
+pub(super) fn used(world: &World) -> (BTreeSet<MeshId>, BTreeSet<MaterialId>) {
+    let renderers = world.columns::<MeshRenderer>();
+    let volumes = world.columns::<ClipVolume>().mesh().iter();
+    let meshes = renderers.mesh().iter().chain(volumes).copied().collect();
+    let materials = renderers.material().iter().copied().collect();
+    (meshes, materials)
+}
+
+/// The names and recipes of the assets that a world uses, and of those that are kept though it does
+/// not.
 struct Saved {
     definitions: Vec<Definition>,
     meshes: HashMap<MeshId, String>,
@@ -197,27 +251,42 @@ struct Saved {
 }
 
 impl Saved {
-    fn new(world: &World, assets: &Assets, recipes: &Recipes) -> Result<Self, String> {
-        let renderers = world.columns::<MeshRenderer>();
-        let volumes = world.columns::<ClipVolume>().mesh().iter();
-        let used: BTreeSet<MeshId> = renderers.mesh().iter().chain(volumes).copied().collect();
+    fn new(
+        world: &World,
+        assets: &Assets,
+        recipes: &Recipes,
+        shelf: &Shelf,
+    ) -> Result<Self, String> {
+        let (mut used_meshes, mut used_materials) = used(world);
+        let mut kept_textures = Vec::new();
+        for id in shelf.kept() {
+            match id {
+                AssetId::Mesh(id) => _ = used_meshes.insert(id),
+                AssetId::Material(id) => _ = used_materials.insert(id),
+                AssetId::Texture(id) => kept_textures.push(id),
+            }
+        }
         let (meshes, mut definitions) = define(
             "mesh",
-            used.iter()
+            used_meshes
+                .iter()
                 .filter_map(|&id| Some((id, &*assets.mesh(id)?.name))),
             |id| recipes.meshes.get(&id).map(MeshRecipe::spelled),
             "",
         )?;
-        let used: BTreeSet<MaterialId> = renderers.material().iter().copied().collect();
         let surfaces = || {
-            used.iter()
+            used_materials
+                .iter()
                 .filter(|id| id.0 != 0)
                 .filter_map(|&id| Some((id, assets.material(id)?)))
         };
-        let pictures: BTreeSet<TextureId> = surfaces()
+        // In the order in which they are painted when the file is read.
+        let pictures = surfaces()
             .flat_map(|(_, surface)| [surface.base_color_texture, surface.normal_texture])
             .flatten()
-            .collect();
+            .chain(kept_textures);
+        let mut seen = HashSet::new();
+        let pictures: Vec<TextureId> = pictures.filter(|id| seen.insert(*id)).collect();
         // One recipe gives both the colours and the normals of a painted texture.
         let mut by_recipe: HashMap<&String, TextureId> = HashMap::new();
         let mut first = HashMap::new();
@@ -328,7 +397,7 @@ impl Scene {
 
     fn saved(&self) -> Result<Saved, Problem> {
         let data = self.stage.lock();
-        Saved::new(&self.world, &self.assets, &data.recipes)
+        Saved::new(&self.world, &self.assets, &data.recipes, &data.shelf)
             .map_err(|message| Problem::new(Place::file(self.path.as_str()), message))
     }
 }

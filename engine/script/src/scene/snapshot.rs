@@ -16,6 +16,7 @@ use super::materials::Material;
 use super::models::Models;
 use super::plots::Plots;
 use super::recipes::Recipes;
+use super::shelf::Shelf;
 use crate::random::RowPlaces;
 
 /// A scene at one moment. Made by [`Scene::snapshot`].
@@ -40,6 +41,7 @@ impl std::fmt::Debug for SceneSnapshot {
 /// What the functions of scripts work on, beside the world and the assets.
 struct DataSnapshot {
     recipes: Recipes,
+    shelf: Shelf,
     models: Models,
     messages: Vec<Message>,
     aims: HashMap<Entity, Vec3>,
@@ -60,6 +62,7 @@ impl DataSnapshot {
         };
         Self {
             recipes: data.recipes.clone(),
+            shelf: data.shelf.clone(),
             models: data.models.clone(),
             messages: data.messages.clone(),
             aims: data.aims.clone(),
@@ -74,6 +77,7 @@ impl DataSnapshot {
 
     fn give_back(&self, data: &mut Data) {
         data.recipes.clone_from(&self.recipes);
+        data.shelf.clone_from(&self.shelf);
         data.models.clone_from(&self.models);
         data.messages.clone_from(&self.messages);
         data.aims.clone_from(&self.aims);

@@ -2,11 +2,12 @@
 
 use egui::{Align, ComboBox, DragValue, Layout, Response, RichText, Sense, TextEdit, Ui, vec2};
 use lightbench::script::Scene;
-use lightbench::script::overlays::{Overlay, degrees_of, editable, rotation_of};
+use lightbench::script::overlays::{AssetId, Overlay, Who, degrees_of, editable, rotation_of};
 use lightbench::world::glam::{DVec3, Vec2, Vec3, Vec4};
 use lightbench::world::reflect::FieldInfo;
 use lightbench::world::{ComponentKind, Value, ValueType};
 
+use crate::ui::messages::say;
 use crate::ui::panels::widgets::words;
 use crate::ui::theme::Palette;
 
@@ -29,6 +30,13 @@ pub enum Done {
     Set(Value),
     Reset,
     Copy,
+    Asset(Choice),
+}
+
+/// Another mesh or material; none for the one that the script gave.
+pub enum Choice {
+    Mesh(Option<Who>),
+    Material(Option<Who>),
 }
 
 /// A text of the source in one line.
@@ -87,6 +95,13 @@ impl Row<'_> {
         ui.horizontal(|ui| {
             self.dot(ui);
             let label = self.label(ui);
+            if self.kind == ComponentKind::MeshRenderer && self.refused.is_none() {
+                let chosen = self.asset(ui, label.id);
+                if let Some(chosen) = chosen {
+                    done = chosen.map(Done::Asset);
+                    return;
+                }
+            }
             let locked = editable(self.kind, self.info).err().or(self.refused);
             if let Some(why) = locked {
                 let text = RichText::new(self.text()).monospace().weak();
@@ -118,6 +133,55 @@ impl Row<'_> {
             }
         });
         done
+    }
+
+    /// The choice of a mesh or a material; none for other fields.
+    #[allow(clippy::option_option)]
+    fn asset(&self, ui: &mut Ui, label: egui::Id) -> Option<Option<Choice>> {
+        let is_mesh = match self.value {
+            Value::Mesh(_) => true,
+            Value::Material(_) => false,
+            _ => return None,
+        };
+        let mut chosen = None;
+        let combo = ComboBox::from_id_salt("asset")
+            .selected_text(self.text())
+            .width(150.0)
+            .truncate();
+        let response = combo.show_ui(ui, |ui| {
+            for one in self.scene.listed() {
+                let (fits, is_now) = match (one.id, self.value) {
+                    (AssetId::Mesh(id), Value::Mesh(now)) => (true, id == *now),
+                    (AssetId::Material(id), Value::Material(now)) => (true, id == *now),
+                    _ => (false, false),
+                };
+                if fits && ui.selectable_label(is_now, one.who.words()).clicked() {
+                    chosen = Some(match is_mesh {
+                        true => Choice::Mesh(Some(one.who)),
+                        false => Choice::Material(Some(one.who)),
+                    });
+                }
+            }
+        });
+        response.response.labelled_by(label);
+        if self.differs {
+            let about = say!("materials.differs_about");
+            ui.label(RichText::new(say!("materials.differs")).small().italics())
+                .on_hover_text(about);
+        }
+        let button = ui.small_button(say!("assets.script_s_own"));
+        let about = match is_mesh {
+            true => say!("assets.script_s_mesh"),
+            false => say!("assets.script_s_material"),
+        };
+        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, about));
+        if button.on_hover_text(about).clicked() {
+            chosen = Some(match is_mesh {
+                true => Choice::Mesh(None),
+                false => Choice::Material(None),
+            });
+        }
+        Some(chosen)
     }
 
     /// The mark of a field that was changed by hand.

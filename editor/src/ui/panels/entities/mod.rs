@@ -4,10 +4,11 @@ mod field;
 mod heading;
 mod list;
 mod several;
+pub mod some;
 mod switches;
 
 use egui::{RichText, ScrollArea, Ui};
-use lightbench::script::overlays::{field_path, line};
+use lightbench::script::overlays::{Who, field_path, line};
 use lightbench::world::reflect::Role;
 use lightbench::world::{ComponentKind, Entity, Name, Value};
 
@@ -18,6 +19,7 @@ use crate::ui::theme::Palette;
 use crate::ui::workbench::structure::{is_locked, is_shown};
 pub use field::sentence;
 use list::{Choice, Deed, Rows};
+pub use several::carried_over as parts_carried_over;
 
 /// What the panel remembers from frame to frame.
 #[derive(Default)]
@@ -42,6 +44,8 @@ enum Wish {
     Reset(Vec<String>, Option<String>),
     ResetAll,
     Copy(String),
+    Material(Option<Who>),
+    Mesh(Option<Who>),
     Rename(String),
     Add(ComponentKind),
     Drop(ComponentKind),
@@ -220,6 +224,8 @@ fn grant(editor: &mut Editor, ui: &Ui, wish: Wish) {
             ui.ctx().copy_text(text);
             Ok(())
         }
+        Wish::Material(who) => workbench.dress_chosen(who),
+        Wish::Mesh(who) => workbench.reshape_chosen(who),
         Wish::Rename(name) => workbench.rename_chosen(&name),
         Wish::Add(kind) => workbench.add_component(kind),
         Wish::Drop(kind) => workbench.drop_component(kind),
@@ -334,6 +340,10 @@ fn components(
                 Some(field::Done::Reset) => {
                     *wish = Some(Wish::Reset(names.clone(), Some(path.to_owned())));
                 }
+                Some(field::Done::Asset(field::Choice::Material(who))) => {
+                    *wish = Some(Wish::Material(who));
+                }
+                Some(field::Done::Asset(field::Choice::Mesh(who))) => *wish = Some(Wish::Mesh(who)),
                 Some(field::Done::Copy) => {
                     *wish = line(&name, path, &value).map(Wish::Copy);
                 }

@@ -20,10 +20,13 @@ use super::Scene;
 use super::data::Data;
 use super::fields;
 use super::tables::{self, Field};
+pub use crate::scene::shelf::AssetId;
 pub use lines::{degrees_of, line, rotation_of};
 pub(crate) use lines::{spell_point, spell_single};
 use structure::Done;
-pub use structure::{Edit, LOCKED, NewKind, Who, topmost};
+pub use structure::{
+    AssetEdit, Edit, LOCKED, Listed, NewKind, Picture, SurfaceField, SurfaceValue, Who, topmost,
+};
 
 /// One value that a person has set.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +63,8 @@ pub struct Overlays {
     serial: u64,
     /// Until when names were looked at for those that wait.
     looked: Option<Tick>,
+    /// The revision of the assets at which materials were looked at.
+    assets_seen: u64,
 }
 
 /// The name of a field in scripts, as in `mesh_renderer.visible`; `None` for components that scripts
@@ -286,6 +291,7 @@ impl Overlays {
             .is_none_or(|looked| names.any_changed_since(looked));
         let mut written = named && self.retry(scene);
         self.looked = Some(scene.world.observe());
+        self.follow_surfaces(scene);
         for ((name, path), overlay) in &mut self.all {
             if let Ok(field) = tables::field(path) {
                 written |= overlay.follow(scene, name, field, named);

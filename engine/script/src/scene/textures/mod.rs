@@ -132,6 +132,17 @@ impl Pattern {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Whether nothing is drawn with it by now.
+    pub(super) fn is_unpainted(&self) -> bool {
+        let plan = self.lock();
+        plan.color.is_none() && plan.normal.is_none()
+    }
+
+    /// The calls that made it.
+    pub(super) fn recipe(&self) -> Option<String> {
+        self.lock().recipe.clone()
+    }
+
     /// The texture of colours.
     pub(super) fn color(&self, data: &mut Data) -> Result<TextureId, Mistake> {
         let mut plan = self.lock();
@@ -171,6 +182,9 @@ impl Plan {
         if let Some(recipe) = &self.recipe {
             for id in [self.color, self.normal].into_iter().flatten() {
                 data.recipes.textures.insert(id, recipe.clone());
+            }
+            if let Some(normal) = self.normal.filter(|normal| self.color != Some(*normal)) {
+                data.recipes.normals.insert(normal);
             }
         }
     }

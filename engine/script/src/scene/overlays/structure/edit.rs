@@ -4,17 +4,18 @@ use std::collections::HashSet;
 
 use lightbench_world::{ComponentKind, Name, Transform};
 
+use super::assets::AssetEdit;
 use super::finding::{self, named};
 use super::kinds::NewKind;
 use super::{Overlays, with_all_below};
 use crate::scene::Scene;
 
-/// Which entity is meant, in a scene that may have been loaded anew.
+/// Which entity or asset is meant, in a scene that may have been loaded anew.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Who {
     /// Its name; empty for one without.
     pub name: String,
-    /// Where several share the name, which of them in the order of the list, from 0.
+    /// Where several share the name, which of them in the order of the list or the table, from 0.
     pub nth: u32,
 }
 
@@ -81,6 +82,8 @@ pub enum Edit {
         /// Whether they have it then.
         on: bool,
     },
+    /// Changes materials, meshes and textures, or what entities are drawn with.
+    Assets(AssetEdit),
 }
 
 impl Edit {
@@ -114,6 +117,7 @@ impl Edit {
                 (tag, true) => format!("Tag {} as {tag}", spell(of)),
                 (tag, false) => format!("Take the tag {tag} from {}", spell(of)),
             },
+            Self::Assets(edit) => edit.words(),
         }
     }
 
@@ -219,6 +223,9 @@ impl Edit {
                 tag,
                 on,
             }),
+            Self::Assets(edit) => edit
+                .completed(scene, &mut taken(scene, overlays), greatest)
+                .map(Self::Assets),
         }
     }
 }
@@ -235,14 +242,14 @@ impl Who {
     }
 }
 
-fn spell(of: &[Who]) -> String {
+pub(super) fn spell(of: &[Who]) -> String {
     match of {
         [one] => one.words(),
         all => format!("{} entities", all.len()),
     }
 }
 
-fn is_taken(name: &str) -> String {
+pub(super) fn is_taken(name: &str) -> String {
     format!("another entity is called `{name}`, or changes wait for one of that name")
 }
 
@@ -260,10 +267,16 @@ fn changeable(component: ComponentKind) -> Result<(), String> {
 
 /// Refuses entities that are not there, and the camera that no script made.
 fn present(scene: &Scene, of: Vec<Who>) -> Result<Vec<Who>, String> {
+    are_present(scene, &of)?;
+    Ok(of)
+}
+
+/// The same without taking them.
+pub(super) fn are_present(scene: &Scene, of: &[Who]) -> Result<(), String> {
     if of.is_empty() {
         return Err("no entity is chosen".to_owned());
     }
-    let found = finding::all(&scene.world, &of);
+    let found = finding::all(&scene.world, of);
     for (who, found) in of.iter().zip(found) {
         let Some(found) = found else {
             return Err(format!("nothing is called `{}` now", who.name));
@@ -276,7 +289,7 @@ fn present(scene: &Scene, of: Vec<Who>) -> Result<Vec<Who>, String> {
             );
         }
     }
-    Ok(of)
+    Ok(())
 }
 
 /// Names that a new entity can't have.
@@ -287,7 +300,7 @@ fn taken(scene: &Scene, overlays: &Overlays) -> HashSet<String> {
 }
 
 /// The first free name that begins so.
-fn free_name(wanted: &str, taken: &mut HashSet<String>) -> String {
+pub(super) fn free_name(wanted: &str, taken: &mut HashSet<String>) -> String {
     let mut name = wanted.to_owned();
     let (base, mut number) = match wanted.rsplit_once(' ') {
         Some((base, end)) => match end.parse::<u32>() {

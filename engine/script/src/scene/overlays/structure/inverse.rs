@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use lightbench_world::{ComponentKind, Entity, EntityMap, Name, Removed, Row};
 
+use super::assets::AssetInverse;
 use super::finding::named;
 use crate::scene::Scene;
 use crate::scene::data::Data;
@@ -29,6 +30,8 @@ pub(super) enum Inverse {
         on: bool,
         entities: Vec<Entity>,
     },
+    /// It has changed assets, or what is drawn with them.
+    Assets(Box<AssetInverse>),
 }
 
 /// An entity that is called otherwise.
@@ -108,6 +111,7 @@ impl Inverse {
                     data.world.give_back(*entity, row.clone());
                 }
             }
+            Self::Assets(inverse) => inverse.revert(data),
             Self::Tagged { tag, on, entities } => {
                 for entity in entities {
                     match on {
@@ -144,6 +148,7 @@ impl Inverse {
                 }
             }
             Self::Dropped(all) => all.iter_mut().for_each(|(entity, _)| renew(entity)),
+            Self::Assets(inverse) => inverse.follow(map),
         }
     }
 }

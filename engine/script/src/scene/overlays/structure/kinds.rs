@@ -30,6 +30,8 @@ pub enum NewKind {
     SpotLight,
     /// A light from infinitely far away.
     DirectionalLight,
+    /// Light from everywhere alike.
+    AmbientLight,
     /// A camera.
     Camera,
 }
@@ -39,7 +41,7 @@ const STRENGTH: f32 = 10.0;
 
 impl NewKind {
     /// All, in the order of menus.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Empty,
         Self::Box,
         Self::Sphere,
@@ -50,6 +52,7 @@ impl NewKind {
         Self::PointLight,
         Self::SpotLight,
         Self::DirectionalLight,
+        Self::AmbientLight,
         Self::Camera,
     ];
 
@@ -67,6 +70,7 @@ impl NewKind {
             Self::PointLight => "point light",
             Self::SpotLight => "spot light",
             Self::DirectionalLight => "directional light",
+            Self::AmbientLight => "ambient light",
             Self::Camera => "camera",
         }
     }
@@ -84,6 +88,7 @@ impl NewKind {
             | Self::PointLight
             | Self::SpotLight
             | Self::DirectionalLight
+            | Self::AmbientLight
             | Self::Camera => return None,
         })
     }
@@ -93,6 +98,7 @@ impl NewKind {
             Self::PointLight => (LightKind::Point, STRENGTH),
             Self::SpotLight => (LightKind::Spot, STRENGTH),
             Self::DirectionalLight => (LightKind::Directional, 1.0),
+            Self::AmbientLight => (LightKind::Ambient, 1.0),
             _ => return None,
         };
         Some(Light {

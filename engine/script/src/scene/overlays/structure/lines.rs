@@ -25,6 +25,7 @@ impl Edit {
                     NewKind::PointLight => format!("point_light({name}).intensity(10.0)"),
                     NewKind::SpotLight => format!("spot_light({name}).intensity(10.0)"),
                     NewKind::DirectionalLight => format!("directional_light({name})"),
+                    NewKind::AmbientLight => format!("ambient_light({name})"),
                     NewKind::Camera => format!("camera({name})"),
                     _ => match kind.shape() {
                         Some(shape) => format!("spawn({name}).mesh({shape})"),
@@ -39,6 +40,7 @@ impl Edit {
                 ))
             }
             Self::Copy { .. } => None,
+            Self::Assets(edit) => edit.line(),
             Self::Delete { of } => each(of, &|entity| format!("{entity}.remove();")),
             Self::Rename { of } => {
                 let lines: Option<Vec<String>> = of

@@ -6,6 +6,7 @@
 //! whose entities are not there waits until they come. The last one can be taken back, and then the
 //! world is as it was before it: handles, rows, places among siblings and numbers in files too.
 
+mod assets;
 mod edit;
 mod finding;
 mod inverse;
@@ -20,12 +21,14 @@ use std::collections::{HashMap, HashSet};
 
 use lightbench_world::{Entity, scene_file};
 
+pub use assets::{AssetEdit, Listed, Picture, SurfaceField, SurfaceValue};
 pub use edit::{Edit, Who};
 pub use finding::topmost;
 pub use kinds::NewKind;
 
 use super::{Overlay, Overlays};
 use crate::scene::Scene;
+use crate::scene::shelf::Stock;
 use inverse::Inverse;
 
 /// The tag of entities that the editor leaves alone.
@@ -43,6 +46,8 @@ pub(super) struct Done {
     fields: Vec<((String, String), Overlay)>,
     /// The greatest number that entities of the file have had by now.
     greatest: u32,
+    /// How much there was of assets before and after it.
+    stock: (Stock, Stock),
 }
 
 impl Overlays {
@@ -62,7 +67,12 @@ impl Overlays {
         let greatest = scene_file::number(&mut scene.world).max(self.greatest());
         let edit = edit.completed(scene, self, greatest)?;
         let fields = self.lift_those_of(scene, &edit);
-        let result = work::perform(scene, &edit);
+        let before = scene.stock();
+        let result = work::perform(scene, &edit, &self.edits);
+        let stock = (before, scene.stock());
+        if result.is_err() {
+            scene.forget_added(&stock);
+        }
         let goes = matches!(edit, Edit::Delete { .. } | Edit::Drop { .. });
         let fields = match (&result, goes) {
             (Ok(_), true) => fields,
@@ -82,6 +92,7 @@ impl Overlays {
             inverse: Some(inverse),
             fields,
             greatest,
+            stock,
         });
         self.settle(scene);
         Ok(edit)
@@ -100,6 +111,8 @@ impl Overlays {
             }
             self.follow_names(inverse, true);
         }
+        self.unpaint(scene, &done);
+        scene.forget_added(&done.stock);
         self.lay_back(scene, done.fields);
         self.settle(scene);
         Some(done.edit)
@@ -215,6 +228,19 @@ impl Overlays {
                 .map(|(key, overlay)| ((copy.clone(), key.1.clone()), overlay.clone().lifted()))
                 .collect();
             self.all.extend(own);
+        }
+    }
+}
+
+impl Scene {
+    fn stock(&mut self) -> Stock {
+        self.on_data(|data| data.stock())
+    }
+
+    /// Forgets the assets that a change has added.
+    fn forget_added(&mut self, (before, after): &(Stock, Stock)) {
+        if before != after {
+            self.on_data(|data| data.forget_added(before, after));
         }
     }
 }

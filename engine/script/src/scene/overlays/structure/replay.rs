@@ -15,19 +15,37 @@ impl Overlays {
         }
         // As when the first of them was done.
         scene_file::number(&mut scene.world);
-        for done in &mut self.edits[from..] {
-            done.inverse = work::perform(scene, &done.edit).ok();
+        for place in from..self.edits.len() {
+            self.do_again(scene, place);
         }
     }
 
     /// Does changes that waited, where their entities have come. Returns whether there were some.
     pub(in super::super) fn retry(&mut self, scene: &mut Scene) -> bool {
         let mut done_now = false;
-        for done in self.edits.iter_mut().filter(|done| done.inverse.is_none()) {
-            done.inverse = work::perform(scene, &done.edit).ok();
-            done_now |= done.inverse.is_some();
+        for place in 0..self.edits.len() {
+            if self.edits[place].inverse.is_none() {
+                done_now |= self.do_again(scene, place);
+            }
         }
         done_now
+    }
+
+    /// Does one change again. Returns whether it can be done.
+    fn do_again(&mut self, scene: &mut Scene, place: usize) -> bool {
+        let before = scene.stock();
+        let (earlier, later) = self.edits.split_at_mut(place);
+        let Some(done) = later.first_mut() else {
+            return false;
+        };
+        done.inverse = work::perform(scene, &done.edit, earlier).ok();
+        done.stock = (before, scene.stock());
+        if done.inverse.is_none() {
+            // What a part of it has added.
+            scene.forget_added(&done.stock);
+            done.stock = (before, before);
+        }
+        done.inverse.is_some()
     }
 
     /// The structure of a scene that was taken back to a moment at which `before` lay on it: changes
@@ -43,6 +61,7 @@ impl Overlays {
         }
         for (own, old) in self.edits.iter_mut().zip(before.edits) {
             own.inverse = old.inverse;
+            own.stock = old.stock;
         }
         self.replay(scene, common);
     }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use lightbench_world::components::SceneNumber;
 use lightbench_world::{ComponentKind, Entity, MeshRenderer, Name};
 
+use super::Done;
 use super::edit::{Edit, Who};
 use super::finding::{self, named};
 use super::inverse::{Inverse, Moved, Renamed};
@@ -12,12 +13,14 @@ use super::kinds::NewKind;
 use crate::scene::Scene;
 use crate::scene::data::Data;
 
-/// Does a change, as far as its entities are there, and gives what takes it back.
+/// Does a change, as far as its entities are there, and gives what takes it back. `before` are the changes
+/// before it.
 ///
 /// # Errors
 /// A sentence, where none of them is there or the scene may not have more. Nothing has changed then.
-pub(super) fn perform(scene: &mut Scene, edit: &Edit) -> Result<Inverse, String> {
+pub(super) fn perform(scene: &mut Scene, edit: &Edit, before: &[Done]) -> Result<Inverse, String> {
     match edit {
+        Edit::Assets(edit) => super::assets::perform(scene, edit, before),
         Edit::Create {
             kind,
             name,
@@ -150,7 +153,7 @@ pub(super) fn perform(scene: &mut Scene, edit: &Edit) -> Result<Inverse, String>
 }
 
 /// Those that there are, at least one.
-fn there(scene: &Scene, of: &[Who]) -> Result<Vec<Entity>, String> {
+pub(super) fn there(scene: &Scene, of: &[Who]) -> Result<Vec<Entity>, String> {
     let found = finding::found(&scene.world, of);
     match (found.is_empty(), of) {
         (false, _) => Ok(found),
@@ -160,7 +163,7 @@ fn there(scene: &Scene, of: &[Who]) -> Result<Vec<Entity>, String> {
 }
 
 /// Gives an entity its number in files, unless another one has it.
-fn give_number(data: &mut Data, entity: Entity, number: u32) {
+pub(super) fn give_number(data: &mut Data, entity: Entity, number: u32) {
     let numbers = data.world.columns::<SceneNumber>().number();
     if !numbers.contains(&number) {
         // It was made just now.
