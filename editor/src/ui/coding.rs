@@ -269,7 +269,10 @@ impl Editor {
         }
         let workbench = &self.workbench;
         let (files, gpu) = (workbench.files(), workbench.gpu_options());
-        self.pictures.tend(files, gpu, workbench.wake());
+        if self.pictures.tend(files, gpu, workbench.wake()) {
+            // The panels that show them are drawn already.
+            ctx.request_repaint();
+        }
     }
 
     /// Adds a picture of a file to the scene's textures.

@@ -12,6 +12,7 @@ use lightbench::script::SCENE_EXTENSION;
 use rfd::{AsyncFileDialog, FileHandle};
 
 use super::messages::say;
+use super::pictures::{MODELS, PICTURES};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,14 +125,12 @@ impl Dialogs {
                 Box::pin(dialog.add_filter("Scenes and models", &endings).pick_file())
             }
             Question::Picture | Question::Texture => {
-                let endings = ["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"];
                 let title = say!("assets.pictures");
-                Box::pin(dialog.add_filter(title, &endings).pick_file())
+                Box::pin(dialog.add_filter(title, &PICTURES).pick_file())
             }
             Question::Model => {
-                let endings = ["obj", "gltf", "glb"];
                 let title = say!("assets.models");
-                Box::pin(dialog.add_filter(title, &endings).pick_file())
+                Box::pin(dialog.add_filter(title, &MODELS).pick_file())
             }
             Question::SaveScene => {
                 let dialog = dialog.add_filter("Scenes", &[SCENE_EXTENSION]);

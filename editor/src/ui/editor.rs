@@ -182,7 +182,15 @@ impl Editor {
         });
         // A panel that somebody has hidden stays so, and who works with entities goes on with them.
         let brought = self.bring.take().filter(|panel| {
-            *panel != Panel::Pixel || !layout::is_in_front(&self.layout, Panel::Entities)
+            let with_entities = [
+                Panel::Entities,
+                Panel::Materials,
+                Panel::Assets,
+                Panel::Environment,
+            ];
+            let mut at_work = with_entities.iter();
+            *panel != Panel::Pixel
+                || !at_work.any(|panel| layout::is_in_front(&self.layout, *panel))
         });
         if let Some(panel) = brought.filter(|panel| layout::is_visible(&self.layout, *panel)) {
             layout::set_visible(&mut self.layout, panel, true);

@@ -19,6 +19,12 @@ use worker::Worker;
 
 use super::workbench::Wake;
 
+/// How files with pictures end.
+pub const PICTURES: [&str; 7] = ["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"];
+
+/// How files with models end.
+pub const MODELS: [&str; 3] = ["obj", "gltf", "glb"];
+
 /// Small pictures that are held; beyond that all are forgotten, and those in sight asked for again.
 const MOST: usize = 600;
 
@@ -140,10 +146,21 @@ impl Pictures {
 
     /// Files have changed: pictures that are made from such are drawn anew.
     pub fn files_changed(&mut self, paths: &[String]) {
-        // Scripts of scenes are saved all the time, and no picture is made from them.
-        let counts = |path: &String| {
-            !path.starts_with("scripts/scenes") && !path.starts_with("scripts/behaviours")
+        let shows = |path: &String| {
+            let folders = ["shaders/", "scripts/pipelines", "scripts/previews"];
+            folders.iter().any(|folder| path.starts_with(folder))
         };
+        // What the editor itself writes all the time is none of it.
+        let own = |path: &String| path.starts_with("notebook/") || path.starts_with("reports/");
+        let is_read = |path: &String| {
+            let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+            PICTURES
+                .iter()
+                .chain(&MODELS)
+                .any(|known| ending.eq_ignore_ascii_case(known))
+                || ["mtl", "bin"].contains(&ending)
+        };
+        let counts = |path: &String| shows(path) || (is_read(path) && !own(path));
         self.version += u64::from(paths.iter().any(counts));
     }
 
@@ -154,8 +171,8 @@ impl Pictures {
         }
     }
 
-    /// Hands out what was asked for and takes in what was drawn.
-    pub fn tend(&mut self, files: &Files, gpu: &GpuOptions, wake: &Wake) {
+    /// Hands out what was asked for and takes in what was drawn. Returns whether something was.
+    pub fn tend(&mut self, files: &Files, gpu: &GpuOptions, wake: &Wake) -> bool {
         if let Some(worker) = &self.worker
             && !worker.is_for(files)
         {
@@ -165,19 +182,22 @@ impl Pictures {
             self.wanted = None;
         }
         if self.queue.is_empty() && self.wanted.is_none() && self.worker.is_none() {
-            return;
+            return false;
         }
         let worker = self
             .worker
             .get_or_insert_with(|| Worker::start(files.clone(), gpu.clone(), wake.clone()));
         worker.order(self.version, self.queue.drain(..), self.wanted.take());
+        let mut came = false;
         for answer in worker.answers() {
+            came = true;
             match (answer.is_large, answer.pixels) {
                 (true, pixels) => self.large.drawn = Some((answer.key, pixels)),
                 (false, Ok(pixels)) => _ = self.states.insert(answer.key, State::Drawn(pixels)),
                 (false, Err(why)) => _ = self.states.insert(answer.key, State::None(why)),
             }
         }
+        came
     }
 }
 

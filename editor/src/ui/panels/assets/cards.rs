@@ -8,7 +8,7 @@ use lightbench::assets::files::Files;
 use lightbench::script::Scene;
 use lightbench::script::overlays::{AssetId, Listed};
 
-use crate::ui::pictures::Subject;
+use crate::ui::pictures::{MODELS, PICTURES, Subject};
 use crate::ui::workbench::Wake;
 
 /// A part of the browser.
@@ -117,8 +117,8 @@ impl Shelves {
                     all.into_iter().map(|listed| listed.path).collect()
                 };
                 let found = FilesOfProject {
-                    models: paths(&["obj", "gltf", "glb"]),
-                    pictures: paths(&["png", "jpg", "jpeg", "tga", "bmp", "hdr", "exr"]),
+                    models: paths(&MODELS),
+                    pictures: paths(&PICTURES),
                     project: files.project().map(ToOwned::to_owned),
                 };
                 wake();
