@@ -11,8 +11,8 @@ use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
 use lightbench::script::SCENE_EXTENSION;
 use rfd::{AsyncFileDialog, FileHandle};
 
-use super::messages::say;
 use super::pictures::{MODELS, PICTURES};
+use crate::ui::messages::say;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,25 +34,25 @@ pub enum Question {
 impl Question {
     fn title(self) -> &'static str {
         match self {
-            Self::Project => "Open a project",
-            Self::Scene => "Open a scene",
+            Self::Project => say!("dialogs.open_a_project"),
+            Self::Scene => say!("dialogs.open_a_scene"),
             Self::Picture | Self::Texture => say!("assets.ask_picture"),
             Self::Model => say!("assets.ask_model"),
-            Self::SaveScene => "Save the scene as",
+            Self::SaveScene => say!("dialogs.save_the_scene_as"),
         }
     }
 
     fn about(self) -> &'static str {
         match self {
             Self::Project => {
-                "The folder of a project. In a new or an empty folder a project is made."
+                say!("dialogs.the_folder_of_a_project_in")
             }
             Self::Scene => {
-                "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb)."
+                say!("dialogs.a_script_rhai_a_saved_scene")
             }
             Self::Picture | Self::Texture => say!("assets.ask_picture_about"),
             Self::Model => say!("assets.ask_model_about"),
-            Self::SaveScene => "The file to write. It ends in .scene and holds the entities.",
+            Self::SaveScene => say!("dialogs.the_file_to_write_it_ends"),
         }
     }
 }
@@ -122,7 +122,11 @@ impl Dialogs {
             Question::Project => Box::pin(dialog.pick_folder()),
             Question::Scene => {
                 let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
-                Box::pin(dialog.add_filter("Scenes and models", &endings).pick_file())
+                Box::pin(
+                    dialog
+                        .add_filter(say!("dialogs.scenes_and_models"), &endings)
+                        .pick_file(),
+                )
             }
             Question::Picture | Question::Texture => {
                 let title = say!("assets.pictures");
@@ -133,7 +137,7 @@ impl Dialogs {
                 Box::pin(dialog.add_filter(title, &MODELS).pick_file())
             }
             Question::SaveScene => {
-                let dialog = dialog.add_filter("Scenes", &[SCENE_EXTENSION]);
+                let dialog = dialog.add_filter(say!("dialogs.scenes"), &[SCENE_EXTENSION]);
                 Box::pin(dialog.set_file_name("scene.scene").save_file())
             }
         };
@@ -213,8 +217,8 @@ impl Dialogs {
                 ui.label(RichText::new(why).color(ui.visuals().error_fg_color));
             }
             ui.horizontal(|ui| {
-                given |= ui.button("OK").clicked();
-                done = ui.button("Cancel").clicked();
+                given |= ui.button(say!("dialogs.ok")).clicked();
+                done = ui.button(say!("dialogs.cancel")).clicked();
             });
         });
         let escaped = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));

@@ -1,11 +1,13 @@
 //! One picture of a material, a mesh or a texture.
 
+use std::collections::HashSet;
+
 use lightbench::assets::cache::Reuse;
 use lightbench::assets::color::encode_srgb8;
 use lightbench::assets::files::Files;
 use lightbench::assets::images::{Purpose, shared_texture};
 use lightbench::assets::{
-    AssetCounts, Material, Mesh, Progress, Shared, Texture, TextureFormat, TextureId,
+    AssetCounts, Material, Progress, Shared, Texture, TextureFormat, TextureId,
 };
 use lightbench::lab::capture::{CaptureError, CaptureOptions, capture};
 use lightbench::render::{
@@ -13,10 +15,11 @@ use lightbench::render::{
 };
 use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 use lightbench::world::glam::Vec3;
-use lightbench::world::{Entity, MeshRenderer, Transform};
+use lightbench::world::{Entity, MeshRenderer, Transform, WorldBounds};
 
 use super::Pixels;
 use super::order::{Order, Subject, Through};
+use crate::ui::messages::say;
 
 /// What is drawn: a ball on a floor.
 const SCENE: &str = "scripts/previews/ball.rhai";
@@ -171,7 +174,7 @@ impl Studio {
                 Err(error) => return Err(error.to_string()),
             }
         }
-        Err("the pipeline asks for more and more shaders".to_owned())
+        Err(say!("assets.more_and_more_shaders").to_owned())
     }
 }
 
@@ -187,7 +190,7 @@ impl Stage {
             Some((thing, own, material))
         });
         let (thing, own, material) =
-            found.ok_or_else(|| format!("{SCENE} draws no entity `{THING}`"))?;
+            found.ok_or_else(|| say!("assets.no_thing", scene = SCENE, thing = THING))?;
         Ok(Self {
             counts: scene.assets.counts(),
             scene,
@@ -200,13 +203,30 @@ impl Stage {
 
     /// Puts a model of a file in the place of the thing.
     fn load(&mut self, path: &str) -> Result<(), String> {
-        let line = format!(
-            "let it = load_model({path:?}); entity(\"{THING}\").remove(); it.turn(0, 30, 0); \
-             it.scale(2.2 / max((it.high - it.low).length, 0.000001)); \
-             let middle = it.center; it.at(-middle.x, -middle.y, -middle.z);"
-        );
-        let done = self.scene.evaluate(&line);
-        done.map(drop).map_err(|problem| problem.message)
+        let before: HashSet<Entity> = self.scene.world.entities().collect();
+        let loaded = self.scene.evaluate(&format!("load_model({path:?})"));
+        loaded.map_err(|problem| problem.message)?;
+        let world = &mut self.scene.world;
+        world.despawn(self.thing);
+        let new: Vec<Entity> = world
+            .entities()
+            .filter(|entity| !before.contains(entity))
+            .collect();
+        let boxes = new
+            .iter()
+            .filter_map(|part| world.get::<WorldBounds>(*part));
+        let corners = boxes.map(|own| {
+            let (center, half) = (own.center(), own.half_extents());
+            (center - half, center + half)
+        });
+        let whole = corners.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
+        let (low, high) = whole.unwrap_or_default();
+        let place = fitted((low + high) * 0.5, (high - low).length() * 0.5);
+        for root in new.iter().filter(|part| world.parent(**part).is_none()) {
+            // It was made just now.
+            let _placed = world.insert(*root, place);
+        }
+        Ok(())
     }
 
     /// Puts something in the place of the thing.
@@ -233,7 +253,8 @@ impl Stage {
             }
             Subject::Mesh(mesh) => {
                 renderer.mesh = assets.add_shared_mesh(mesh.clone());
-                place = fitted(mesh);
+                let bounds = mesh.bounds();
+                place = fitted(bounds.center, bounds.radius);
             }
             Subject::Texture(_) | Subject::PictureFile(_) | Subject::ModelFile(_) => {}
         }
@@ -244,14 +265,13 @@ impl Stage {
     }
 }
 
-/// Where a mesh fills the place of the ball, seen a little from above and the side.
-fn fitted(mesh: &Mesh) -> Transform {
-    let bounds = mesh.bounds();
-    let radius = bounds.radius.max(f32::MIN_POSITIVE);
-    let scale = 1.1 / radius;
+/// Where a thing of that middle and radius fills the place of the ball, seen a little from above and the
+/// side.
+fn fitted(center: Vec3, radius: f32) -> Transform {
+    let scale = 1.1 / radius.max(f32::MIN_POSITIVE);
     let seen_from = Transform::looking_at(Vec3::ZERO, Vec3::new(0.55, 0.0, -1.0), Vec3::Y);
     Transform {
-        translation: seen_from.rotation * (-bounds.center * scale),
+        translation: seen_from.rotation * (-center * scale),
         rotation: seen_from.rotation,
         scale: Vec3::splat(scale),
     }

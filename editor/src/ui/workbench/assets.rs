@@ -8,6 +8,7 @@ use lightbench::script::overlays::{AssetEdit, Edit, SurfaceField, SurfaceValue, 
 use lightbench::world::{Entity, Transform};
 
 use super::Workbench;
+use crate::ui::messages::say;
 
 /// The folder of a project into which pictures from elsewhere are copied.
 const TEXTURES: &str = "textures";
@@ -76,10 +77,7 @@ impl Workbench {
     /// As [`Workbench::change_assets`].
     pub fn add_model(&mut self, path: &str) -> Result<(), String> {
         if path.starts_with('@') {
-            self.log.warn(format!(
-                "{path} lies outside of the project: a saved scene finds it only where it was opened \
-                 before. Copy it into the project to keep it."
-            ));
+            self.log.warn(say!("assets.outside", path = path));
         }
         self.change_assets(AssetEdit::AddModel {
             path: path.to_owned(),
@@ -128,7 +126,8 @@ impl Workbench {
                 Err(FileError::NotFound { .. }) => {
                     let written = self.files.write(&name, &bytes);
                     let written = written.map_err(|error| error.to_string())?;
-                    self.log.info(format!("Copied to {}.", written.display()));
+                    let place = written.display();
+                    self.log.info(say!("assets.copied_to", place = place));
                     return Ok(name);
                 }
                 Err(error) => return Err(error.to_string()),
@@ -147,7 +146,8 @@ impl Workbench {
         let names: Vec<String> = Who::of(&scene.world, some).iter().map(Who::words).collect();
         let mut text = names.join(", ");
         if entities.len() > SOME {
-            text += &format!(", and {} more", entities.len() - SOME);
+            let more = entities.len() - SOME;
+            text += &say!("assets.and_more", more = more);
         }
         text
     }
