@@ -222,9 +222,11 @@ impl Stage {
         let whole = corners.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
         let (low, high) = whole.unwrap_or_default();
         let place = fitted((low + high) * 0.5, (high - low).length() * 0.5);
-        for root in new.iter().filter(|part| world.parent(**part).is_none()) {
-            // It was made just now.
-            let _placed = world.insert(*root, place);
+        for entity in new {
+            if world.parent(entity).is_none() {
+                // It was made just now.
+                let _placed = world.insert(entity, place);
+            }
         }
         Ok(())
     }
