@@ -5,7 +5,7 @@ mod ui_support;
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use lightbench::assets::Progress;
 use lightbench::assets::images::encode_png;
 use lightbench::script::{Scene, Settings, load_scene};
@@ -302,6 +302,7 @@ fn models_of_the_project_and_from_elsewhere_are_added_and_taken_back() {
     let file = elsewhere.path().join("petal.obj");
     std::fs::write(&file, MODEL).unwrap();
     click(&mut bench, "Model from a file");
+    key(&mut bench, Key::A, Modifiers::COMMAND);
     bench.harness.event(Event::Text(file.display().to_string()));
     bench.harness.run_steps(2);
     key(&mut bench, Key::Enter, Modifiers::NONE);

@@ -1,14 +1,13 @@
 //! What is known of the card that is chosen, and what can be done with it.
 
-use egui::{RichText, Ui};
+use egui::{Button, Response, RichText, Ui};
 use lightbench::script::Scene;
-use lightbench::script::overlays::{AssetId, Listed, SurfaceField};
+use lightbench::script::overlays::{AssetEdit, AssetId, Listed, SurfaceField};
 
 use super::{Card, Kind, Wish, picture_call};
 use crate::ui::editor::Editor;
 use crate::ui::messages::say;
 use crate::ui::panels::widgets::count;
-use lightbench::script::overlays::AssetEdit;
 
 /// Draws it.
 pub(super) fn show(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
@@ -108,18 +107,14 @@ fn asset(editor: &Editor, ui: &mut Ui, scene: &Scene, listed: &Listed, wish: &mu
                 if ui.small_button(say!("assets.edit_material")).clicked() {
                     *wish = Some(Wish::Edit(listed.who.clone()));
                 }
-                ui.add_enabled_ui(has_entities, |ui| {
-                    if ui.small_button(say!("assets.give_to_chosen")).clicked() {
-                        *wish = Some(Wish::Assign(listed.who.clone()));
-                    }
-                });
+                if enabled(ui, has_entities, say!("assets.give_to_chosen")).clicked() {
+                    *wish = Some(Wish::Assign(listed.who.clone()));
+                }
             }
             AssetId::Mesh(_) => {
-                ui.add_enabled_ui(has_entities, |ui| {
-                    if ui.small_button(say!("assets.give_to_chosen")).clicked() {
-                        *wish = Some(Wish::Reshape(listed.who.clone()));
-                    }
-                });
+                if enabled(ui, has_entities, say!("assets.give_to_chosen")).clicked() {
+                    *wish = Some(Wish::Reshape(listed.who.clone()));
+                }
             }
             AssetId::Texture(_) => {
                 if let Some(recipe) = &listed.recipe {
@@ -128,13 +123,12 @@ fn asset(editor: &Editor, ui: &mut Ui, scene: &Scene, listed: &Listed, wish: &mu
             }
         }
         let is_material = matches!(listed.id, AssetId::Material(_));
-        ui.add_enabled_ui(is_material || listed.is_kept, |ui| {
-            let button = ui.small_button(say!("assets.delete"));
-            let button = button.on_disabled_hover_text(say!("assets.not_by_hand"));
-            if button.clicked() {
-                *wish = Some(Wish::Delete(listed.clone()));
-            }
-        });
+        let can_go = is_material || listed.is_kept;
+        let button = enabled(ui, can_go, say!("assets.delete"));
+        let button = button.on_disabled_hover_text(say!("assets.not_by_hand"));
+        if button.clicked() {
+            *wish = Some(Wish::Delete(listed.clone()));
+        }
     });
 }
 
@@ -145,19 +139,20 @@ fn textures_for(editor: &Editor, ui: &mut Ui, recipe: &str, wish: &mut Option<Wi
         [one] => one.words(),
         all => say!("assets.materials_chosen", count = all.len()),
     };
-    ui.add_enabled_ui(!materials.is_empty(), |ui| {
-        for (title, field) in [
-            (say!("assets.as_texture"), SurfaceField::Texture),
-            (say!("assets.as_normals"), SurfaceField::Normals),
-        ] {
-            let button = ui.small_button(title);
-            let button = button.on_hover_text(say!("assets.goes_to", name = name));
-            if button
-                .on_disabled_hover_text(say!("assets.choose_a_material"))
-                .clicked()
-            {
-                *wish = Some(Wish::PictureFor(recipe.to_owned(), field));
-            }
+    for (title, field) in [
+        (say!("assets.as_texture"), SurfaceField::Texture),
+        (say!("assets.as_normals"), SurfaceField::Normals),
+    ] {
+        let button = enabled(ui, !materials.is_empty(), title);
+        let button = button.on_hover_text(say!("assets.goes_to", name = name));
+        let button = button.on_disabled_hover_text(say!("assets.choose_a_material"));
+        if button.clicked() {
+            *wish = Some(Wish::PictureFor(recipe.to_owned(), field));
         }
-    });
+    }
+}
+
+/// A small button that may be out of use. Rows of such wrap.
+fn enabled(ui: &mut Ui, on: bool, title: &str) -> Response {
+    ui.add_enabled(on, Button::new(title).small())
 }

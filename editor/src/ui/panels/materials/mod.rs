@@ -6,7 +6,7 @@ mod list;
 mod preview;
 mod values;
 
-use egui::{RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, RichText, ScrollArea, TextEdit, Ui};
 use lightbench::assets::MaterialId;
 use lightbench::script::Scene;
 use lightbench::script::overlays::{
@@ -114,40 +114,31 @@ fn buttons(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
     let has_material = !editor.materials.chosen.is_empty();
     let one = editor.materials.chosen.len() == 1;
     let entities = editor.workbench.selection.len();
+    let button = |ui: &mut Ui, enabled: bool, title: &str, about: &str| {
+        let button = ui.add_enabled(enabled, Button::new(title).small());
+        button.on_hover_text(about).clicked()
+    };
     ui.horizontal_wrapped(|ui| {
-        if ui.small_button(say!("materials.new")).clicked() {
+        let about = say!("materials.new_about");
+        if button(ui, true, say!("materials.new"), about) {
             *wish = Some(Wish::New);
         }
-        ui.add_enabled_ui(one, |ui| {
-            if ui.small_button(say!("materials.duplicate")).clicked() {
-                *wish = Some(Wish::Duplicate);
-            }
-        });
-        ui.add_enabled_ui(has_material, |ui| {
-            let button = ui.small_button(say!("materials.delete"));
-            if button
-                .on_hover_text(say!("materials.delete_about"))
-                .clicked()
-            {
-                *wish = Some(Wish::Delete);
-            }
-        });
-        ui.add_enabled_ui(one && entities > 0, |ui| {
-            let button = ui.small_button(say!("materials.assign"));
-            let about = say!("materials.assign_about", count = entities);
-            if button.on_hover_text(about).clicked() {
-                *wish = Some(Wish::Assign);
-            }
-        });
-        ui.add_enabled_ui(has_material, |ui| {
-            let button = ui.small_button(say!("materials.users"));
-            if button
-                .on_hover_text(say!("materials.users_about"))
-                .clicked()
-            {
-                *wish = Some(Wish::Users);
-            }
-        });
+        let about = say!("materials.duplicate_about");
+        if button(ui, one, say!("materials.duplicate"), about) {
+            *wish = Some(Wish::Duplicate);
+        }
+        let about = say!("materials.delete_about");
+        if button(ui, has_material, say!("materials.delete"), about) {
+            *wish = Some(Wish::Delete);
+        }
+        let about = say!("materials.assign_about", count = entities);
+        if button(ui, one && entities > 0, say!("materials.assign"), &about) {
+            *wish = Some(Wish::Assign);
+        }
+        let about = say!("materials.users_about");
+        if button(ui, has_material, say!("materials.users"), about) {
+            *wish = Some(Wish::Users);
+        }
     });
 }
 

@@ -164,9 +164,10 @@ fn what_is_made_and_copied_is_what_was_asked_for() {
         ];
         let wanted = match kind {
             NewKind::Empty => [false, false, false],
-            NewKind::PointLight | NewKind::SpotLight | NewKind::DirectionalLight => {
-                [false, true, false]
-            }
+            NewKind::PointLight
+            | NewKind::SpotLight
+            | NewKind::DirectionalLight
+            | NewKind::AmbientLight => [false, true, false],
             NewKind::Camera => [false, false, true],
             _ => [true, false, false],
         };

@@ -230,7 +230,14 @@ impl AssetEdit {
                 let file = path.rsplit(['/', '\\']).next().unwrap_or(path);
                 let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
                 let name = match name.is_empty() {
-                    true => free_name(stem, taken),
+                    true => {
+                        let mut free = free_name(stem, taken);
+                        // Its parts are called after it.
+                        while taken.iter().any(|name| work::is_part_of(name, &free)) {
+                            free = free_name(stem, taken);
+                        }
+                        free
+                    }
                     false if taken.contains(name) => return Err(is_taken(name)),
                     false => name.clone(),
                 };

@@ -137,11 +137,11 @@ fn all_edits() -> Vec<AssetEdit> {
             of: vec![who("wall")],
             mesh: None,
         },
+        dress("jug", None),
         AssetEdit::Paint {
             field: SurfaceField::Color,
             of: vec![(who("clay"), None)],
         },
-        dress("jug", None),
         AssetEdit::DeleteMesh { of: who("cone") },
         AssetEdit::DeleteTexture { of: who("marble") },
         AssetEdit::DeleteMaterial {

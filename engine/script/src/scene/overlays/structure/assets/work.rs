@@ -1,9 +1,13 @@
 //! Doing a change of assets.
 
+use std::collections::HashSet;
+
 use lightbench_assets::{Material, MaterialId, MeshId, TextureId};
 use lightbench_world::{Entity, MeshRenderer, Name};
 use rhai::{Dynamic, Scope};
 
+use super::super::edit::free_name;
+use super::super::finding::named;
 use super::super::work::{give_number, there};
 use super::super::{Done, Inverse, Who};
 use super::inverse::{AssetInverse, Painted, Part, rename};
@@ -292,6 +296,15 @@ fn mesh(scene: &mut Scene, recipe: &str) -> Result<MeshId, String> {
     })
 }
 
+/// What stands between the name of a model and that of a part.
+const PART: &str = ": ";
+
+/// Whether a name is that of a part of a model.
+pub(super) fn is_part_of(name: &str, model: &str) -> bool {
+    let rest = name.strip_prefix(model);
+    rest.is_some_and(|rest| rest.starts_with(PART))
+}
+
 fn add_model(scene: &mut Scene, edit: &AssetEdit) -> Result<Inverse, String> {
     let AssetEdit::AddModel {
         path,
@@ -308,9 +321,17 @@ fn add_model(scene: &mut Scene, edit: &AssetEdit) -> Result<Inverse, String> {
     scene.on_data(|data| {
         let below = data.world.descendants(root);
         let mut next = *number;
+        let mut names = HashSet::new();
         for entity in std::iter::once(root).chain(below) {
             give_number(data, entity, next);
             next = next.saturating_add(1);
+            let own = named(&data.world, entity);
+            if entity != root && !own.is_empty() {
+                // Names of their own, by which changes of them are kept.
+                let part = free_name(&format!("{name}{PART}{own}"), &mut names);
+                let _named = data.world.insert(entity, Name::new(&part));
+                data.note_name(entity, &part);
+            }
         }
         // It was made just now.
         let _named = data.world.insert(root, Name::new(name));
