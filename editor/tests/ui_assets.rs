@@ -200,11 +200,7 @@ fn a_mesh_is_made_of_a_shape_given_to_entities_saved_and_deleted() {
     let before = text(&mut bench);
     let first = bench.picture();
     click(&mut bench, "Meshes");
-    type_into(
-        &mut bench,
-        "Calls: Shapes",
-        "torus(1, 0.25).segments(24, 12)",
-    );
+    type_into(&mut bench, "Shapes", "torus(1, 0.25).segments(24, 12)");
     click(&mut bench, "Create mesh");
     let made = text(&mut bench);
     assert!(made.contains("= torus(1, 0.25).segments(24, 12)"), "{made}");
@@ -232,7 +228,7 @@ fn a_mesh_is_made_of_a_shape_given_to_entities_saved_and_deleted() {
     key(&mut bench, Key::Z, Modifiers::COMMAND);
     assert_eq!(text(&mut bench), made);
     // What makes no mesh is said.
-    type_into(&mut bench, "Calls: Shapes", "brick_texture()");
+    type_into(&mut bench, "Shapes", "brick_texture()");
     click(&mut bench, "Create mesh");
     assert_eq!(bench.count("makes no mesh"), 1);
 }
@@ -262,11 +258,7 @@ fn textures_of_files_and_calls_go_into_materials() {
     back_and_again(&mut bench, &before);
     key(&mut bench, Key::Z, Modifiers::COMMAND);
     // Made by calls, kept though nothing uses it, and deleted.
-    type_into(
-        &mut bench,
-        "Calls: Painted textures",
-        "marble_texture().seed(3)",
-    );
+    type_into(&mut bench, "Painted textures", "marble_texture().seed(3)");
     click(&mut bench, "Create texture");
     let made = text(&mut bench);
     assert!(made.contains("= marble_texture().seed(3)"), "{made}");

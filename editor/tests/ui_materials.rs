@@ -559,7 +559,7 @@ fn the_environment_is_changed_with_units_reset_and_taken_back() {
     assert!(
         bright.iter().map(|b| u64::from(*b)).sum::<u64>() > dim.iter().map(|b| u64::from(*b)).sum()
     );
-    assert_eq!(steps(&bench).len(), 3);
+    assert_eq!(steps(&bench).len(), 5);
     while bench.harness.state_mut().workbench.undo() {}
     assert_eq!(text(&mut bench), before);
 }

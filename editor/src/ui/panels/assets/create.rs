@@ -74,7 +74,7 @@ fn calls(ui: &mut Ui, title: &str, known: &[&str], typed: &mut String) {
     if typed.is_empty() {
         typed.push_str(known[0]);
     }
-    ui.menu_button(title, |ui| {
+    let menu = ui.menu_button(title, |ui| {
         for call in known {
             if ui.button(*call).clicked() {
                 *typed = (*call).to_owned();
@@ -83,7 +83,6 @@ fn calls(ui: &mut Ui, title: &str, known: &[&str], typed: &mut String) {
     });
     let field = TextEdit::singleline(typed).desired_width(150.0);
     let field = ui.add(field.font(egui::TextStyle::Monospace));
-    let label = say!("assets.calls_of", what = title);
-    field.widget_info(|| egui::WidgetInfo::text_edit(true, "", typed.as_str(), label.as_str()));
+    let field = field.labelled_by(menu.response.id);
     field.on_hover_text(say!("assets.calls_about"));
 }
