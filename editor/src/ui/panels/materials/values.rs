@@ -132,7 +132,7 @@ fn pictures(ui: &mut Ui, row: &Row, picture: &Picture, label: egui::Id) -> Optio
                 continue;
             }
             let title = match &one.recipe {
-                Some(recipe) => short(recipe).to_owned(),
+                Some(recipe) => told_apart(recipe),
                 None => one.who.words(),
             };
             offer(ui, *picture == value, &title, value.clone());
@@ -171,6 +171,21 @@ pub(in crate::ui::panels) fn short(recipe: &str) -> &str {
         Some(end) => &recipe[..=end],
         None => recipe,
     }
+}
+
+/// The beginning of a recipe, by which textures of one call are told apart, or the file of a picture.
+fn told_apart(recipe: &str) -> String {
+    /// So many letters are shown.
+    const MOST: usize = 60;
+    let first = short(recipe);
+    if !recipe.starts_with(first) || recipe.len() <= first.len() {
+        return first.to_owned();
+    }
+    let mut title: String = recipe.chars().take(MOST).collect();
+    if title.len() < recipe.len() {
+        title.push('…');
+    }
+    title
 }
 
 /// The name of a model for people.
