@@ -1,6 +1,8 @@
 //! Values of materials as widgets.
 
-use egui::{ComboBox, DragValue, Slider, Ui};
+use std::ops::RangeInclusive;
+
+use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
 use lightbench::assets::{Reflection, ReflectionModel};
 use lightbench::script::overlays::{AssetId, Listed, Picture, SurfaceField, SurfaceValue};
 use lightbench::world::glam::Vec3;
@@ -44,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, row: &Row, label: egui::Id) -> Option<Done> {
         }
         SurfaceValue::Share(share) => {
             let mut share = *share;
-            let slider = Slider::new(&mut share, 0.0..=1.0).max_decimals(3);
+            let slider = slider(&mut share, 0.0..=1.0).max_decimals(3);
             let changed = ui.add(slider).labelled_by(label).changed();
             changed.then_some(Done::Set(SurfaceValue::Share(share)))
         }
@@ -54,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, row: &Row, label: egui::Id) -> Option<Done> {
                 return set(SurfaceValue::Cutoff(on.then_some(CUTOFF)));
             }
             let mut alpha = (*cutoff)?;
-            let slider = Slider::new(&mut alpha, 0.0..=1.0).max_decimals(3);
+            let slider = slider(&mut alpha, 0.0..=1.0).max_decimals(3);
             let changed = ui.add(slider).labelled_by(label).changed();
             changed.then_some(Done::Set(SurfaceValue::Cutoff(Some(alpha))))
         }
@@ -64,6 +66,11 @@ pub(super) fn show(ui: &mut Ui, row: &Row, label: egui::Id) -> Option<Done> {
             changed.then_some(Done::Set(SurfaceValue::Switch(on)))
         }
     }
+}
+
+/// A slider that leaves what it shows as it is until somebody moves it: others would round it.
+fn slider(number: &mut f32, range: RangeInclusive<f32>) -> Slider<'_> {
+    Slider::new(number, range).clamping(SliderClamping::Edits)
 }
 
 /// The name of a value before its widget.
@@ -281,7 +288,7 @@ fn parameter(ui: &mut Ui, key: &'static str, number: f32, is_power: bool) -> Opt
     ui.horizontal(|ui| {
         ui.add_space(10.0 + ui.spacing().item_spacing.x);
         let label = name(ui, text(key), about);
-        let slider = Slider::new(&mut number, range.clone())
+        let slider = slider(&mut number, range.clone())
             .logarithmic(true)
             .max_decimals(4);
         let changed = ui.add(slider).labelled_by(label).changed();

@@ -61,7 +61,8 @@ impl AssetInverse {
             // It was found just now.
             let _given = data.world.insert(*entity, now);
         }
-        for (id, marks) in &self.marks {
+        // From the end, because one may be among them twice.
+        for (id, marks) in self.marks.iter().rev() {
             data.shelf.mark(*id, *marks);
         }
         if let Some((id, name)) = &self.renamed {

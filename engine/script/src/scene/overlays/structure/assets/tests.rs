@@ -211,6 +211,17 @@ fn what_is_drawn_with_a_deleted_material_gets_the_default_one() {
     assert!(!names.contains(&"clay".to_owned()), "{names:?}");
     overlays.undo_edit(&mut scene);
     assert_eq!(worn(&scene, "cup"), "clay");
+    // One that is named twice comes back too.
+    overlays
+        .edit(&mut scene, Edit::Assets(make("new", None)))
+        .unwrap();
+    let before = scene.to_text().unwrap();
+    let delete = AssetEdit::DeleteMaterial {
+        of: vec![who("new"), who("clay"), who("new")],
+    };
+    overlays.edit(&mut scene, Edit::Assets(delete)).unwrap();
+    overlays.undo_edit(&mut scene);
+    assert_eq!(scene.to_text().unwrap(), before);
 }
 
 #[test]
