@@ -14,6 +14,7 @@ pub mod gallery;
 pub mod kept;
 pub mod layout;
 pub mod lens;
+pub mod menus;
 pub(crate) mod messages;
 mod panels;
 mod screen;
