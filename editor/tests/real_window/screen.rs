@@ -20,6 +20,7 @@ pub enum Key {
     /// A letter or a digit, as it is written on the key, in small letters.
     Letter(char),
     Return,
+    Escape,
     Control,
     Shift,
 }
@@ -30,6 +31,7 @@ impl Key {
         match self {
             Self::Letter(letter) => u32::from(letter),
             Self::Return => 0xff0d,
+            Self::Escape => 0xff1b,
             Self::Control => 0xffe3,
             Self::Shift => 0xffe1,
         }
