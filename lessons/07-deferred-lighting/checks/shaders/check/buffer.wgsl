@@ -1,7 +1,7 @@
 // Calls one function for each pixel of a picture of 64 × 36; `checks.rhai` has the same arguments.
 //
 // In:  the pixel; `called`.
-// Out: a target of `gather`, or what `meet` gives.
+// Out: a target of `gather`, or the alpha of one; or what `meet` gives.
 #import own_buffer
 
 struct Parameters {
@@ -18,19 +18,20 @@ fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let none = vec4f(0.0);
     switch parameters.called {
         // A lamp from straight above to straight below, and a highlight that grows to the right.
-        case 0u: { return own_buffer::gather(vec3f(6.0, 3.0, 1.5), 1.0 - 2.0 * v, 4.0 * u).front; }
-        case 1u: { return own_buffer::gather(vec3f(6.0, 3.0, 1.5), 1.0 - 2.0 * v, 4.0 * u).back; }
-        case 2u: {
+        case 0u: { return own_buffer::gather(vec3f(6.0, 1.0, 3.0), 1.0 - 2.0 * v, 4.0 * u).front; }
+        case 1u: { return own_buffer::gather(vec3f(6.0, 1.0, 3.0), 1.0 - 2.0 * v, 4.0 * u).back; }
+        case 2u: { return own_buffer::gather(vec3f(6.0, 1.0, 3.0), 1.0 - 2.0 * v, 4.0 * u).front.aaaa; }
+        case 3u: {
             let material = own_buffer::Material(vec3f(u, 0.5, 1.0), nothing, nothing, vec3f(0.0, 0.25, v));
             let light = own_buffer::Gathered(vec4f(4.0 * v, 2.0, 1.0, 0.0), none);
             return vec4f(own_buffer::meet(material, light), 1.0);
         }
-        case 3u: {
+        case 4u: {
             let material = own_buffer::Material(nothing, vec3f(u, 0.5, 1.0), nothing, nothing);
             let light = own_buffer::Gathered(none, vec4f(4.0 * v, 2.0, 1.0, 0.0));
             return vec4f(own_buffer::meet(material, light), 1.0);
         }
-        case 4u: {
+        case 5u: {
             let material = own_buffer::Material(nothing, nothing, vec3f(u, 0.5, 1.0), nothing);
             let light = own_buffer::Gathered(vec4f(0.5 + v, 0.8, 0.3, 5.0 * v), none);
             return vec4f(own_buffer::meet(material, light), 1.0);
