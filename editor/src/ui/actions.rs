@@ -41,6 +41,10 @@ pub enum Action {
     Undo,
     /// Do again what was taken back.
     Redo,
+    /// Back to what was looked at before.
+    ViewBack,
+    /// Forth again.
+    ViewForth,
     /// Choose what handles do.
     Tool(Tool),
     /// Handles along the axes of the entity, or of the world.
@@ -216,6 +220,18 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                     Some(KeyboardShortcut::new(COMMAND_SHIFT, Key::Z)),
                 ),
                 entry(Action::Undo, message!("action.undo"), command(Key::Z)),
+            ],
+            &[
+                entry(
+                    Action::ViewBack,
+                    message!("action.view_back"),
+                    shifted(Key::Z),
+                ),
+                entry(
+                    Action::ViewForth,
+                    message!("action.view_forth"),
+                    shifted(Key::Y),
+                ),
             ],
             &[
                 entry(

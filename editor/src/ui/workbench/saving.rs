@@ -45,6 +45,7 @@ impl Workbench {
             let written = self.files.write(&path, text.as_bytes());
             written.map_err(|error| error.to_string())?
         };
+        self.was_saved();
         self.log.info(format!("Saved as {}.", file.display()));
         if update {
             self.log.warn(

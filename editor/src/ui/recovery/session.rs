@@ -1,0 +1,297 @@
+//! What somebody has worked on, as it is written down: a file of JSON.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use lightbench::script::overlays::KeptOverlays;
+use lightbench::script::{SettingValue, Settings};
+use serde_json::{Map, Value, json};
+
+use super::words::{overlays_from, overlays_to};
+use crate::ui::workbench::comparing::Mode;
+use crate::ui::workbench::undo::Dials;
+
+/// The version of the format. A file of another one is left alone.
+const VERSION: u64 = 1;
+
+/// What somebody has worked on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Session {
+    /// The folder of the project.
+    pub project: Option<PathBuf>,
+    /// Whether the window was closed and this was to be kept, so that nothing crashed.
+    pub on_purpose: bool,
+    /// What was on the screen, as a line of text.
+    pub view: String,
+    /// Whether time ran.
+    pub plays: bool,
+    /// The same with B, while two pipelines were compared.
+    pub view_b: Option<String>,
+    /// Settings of the comparison and of time.
+    pub dials: Dials,
+    /// Values of the scenes' parameters, by their names; files outside the project by their paths.
+    pub scenes: BTreeMap<String, Settings>,
+    /// Values of the parameters of visited pipelines, by their names.
+    pub pipelines: BTreeMap<String, Settings>,
+    /// What was changed by hand, by the names of the scenes.
+    pub overlays: BTreeMap<String, KeptOverlays>,
+}
+
+impl Session {
+    /// The file's text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let overlays: Option<Map<String, Value>> = self
+            .overlays
+            .iter()
+            .map(|(scene, kept)| Some((scene.clone(), overlays_to(kept)?)))
+            .collect();
+        let project = self.project.as_ref().map(|path| path.to_string_lossy());
+        json!({
+            "version": VERSION,
+            "project": project,
+            "on_purpose": self.on_purpose,
+            "view": self.view,
+            "plays": self.plays,
+            "view_b": self.view_b,
+            "dials": dials_to(&self.dials),
+            "scenes": all_to(&self.scenes),
+            "pipelines": all_to(&self.pipelines),
+            "overlays": overlays,
+        })
+        .to_string()
+    }
+
+    /// Reads a file; `None` where it is none of this version or is damaged.
+    #[must_use]
+    pub fn from_json(text: &str) -> Option<Self> {
+        let value: Value = serde_json::from_str(text).ok()?;
+        if value["version"].as_u64() != Some(VERSION) {
+            return None;
+        }
+        let overlays = value["overlays"].as_object()?;
+        let overlays = overlays
+            .iter()
+            .map(|(scene, kept)| Some((scene.clone(), overlays_from(kept)?)));
+        Some(Self {
+            project: value["project"].as_str().map(PathBuf::from),
+            on_purpose: value["on_purpose"].as_bool()?,
+            view: value["view"].as_str()?.to_owned(),
+            plays: value["plays"].as_bool()?,
+            view_b: value["view_b"].as_str().map(str::to_owned),
+            dials: dials_from(&value["dials"])?,
+            scenes: all_from(&value["scenes"])?,
+            pipelines: all_from(&value["pipelines"])?,
+            overlays: overlays.collect::<Option<_>>()?,
+        })
+    }
+}
+
+fn all_to(all: &BTreeMap<String, Settings>) -> Value {
+    let one = |settings: &Settings| -> Value {
+        let pairs = settings.iter().map(|(name, value)| match value {
+            SettingValue::Text(text) => json!([name, text]),
+            SettingValue::Number(number) => json!([name, number]),
+            SettingValue::Switch(on) => json!([name, on]),
+        });
+        pairs.collect()
+    };
+    let all = all
+        .iter()
+        .map(|(name, settings)| (name.clone(), one(settings)));
+    Value::Object(all.collect())
+}
+
+fn all_from(value: &Value) -> Option<BTreeMap<String, Settings>> {
+    let one = |value: &Value| {
+        let mut settings = Settings::new();
+        for pair in value.as_array()? {
+            let name = pair[0].as_str()?;
+            let value = match &pair[1] {
+                Value::String(text) => SettingValue::Text(text.clone()),
+                Value::Number(number) => SettingValue::Number(number.as_f64()?),
+                Value::Bool(on) => SettingValue::Switch(*on),
+                _ => return None,
+            };
+            settings.set(name, value);
+        }
+        Some(settings)
+    };
+    let all = value.as_object()?.iter();
+    all.map(|(name, value)| Some((name.clone(), one(value)?)))
+        .collect()
+}
+
+fn dials_to(dials: &Dials) -> Value {
+    json!({
+        "mode": dials.mode.title(),
+        "split": f64::from(dials.split),
+        "shows_b": dials.shows_b,
+        "automatic": dials.automatic,
+        "rate": f64::from(dials.rate),
+        "gain": f64::from(dials.gain),
+        "false_colors": dials.false_colors,
+        "opacity": f64::from(dials.opacity),
+        "speed": dials.speed,
+        "steps": dials.steps,
+    })
+}
+
+fn dials_from(value: &Value) -> Option<Dials> {
+    let number = |name: &str| value[name].as_f64().filter(|number| number.is_finite());
+    let single = |name: &str| number(name).map(|number| number as f32);
+    let mode = value["mode"].as_str()?;
+    let steps = value["steps"].as_u64().and_then(|n| u32::try_from(n).ok());
+    Some(Dials {
+        mode: Mode::ALL.into_iter().find(|known| known.title() == mode)?,
+        split: single("split")?.clamp(0.0, 1.0),
+        shows_b: value["shows_b"].as_bool()?,
+        automatic: value["automatic"].as_bool()?,
+        rate: single("rate")?,
+        gain: single("gain")?,
+        false_colors: value["false_colors"].as_bool()?,
+        opacity: single("opacity")?.clamp(0.0, 1.0),
+        speed: number("speed")?,
+        steps,
+    })
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    #![allow(clippy::unwrap_used)]
+    use lightbench::script::overlays::{Edit, KeptEdit, NewKind, Who};
+    use lightbench::world::glam::{Quat, Vec2, Vec3};
+    use lightbench::world::{ComponentKind, Transform, Value as Field};
+
+    use super::*;
+
+    /// A session with one of everything.
+    pub fn session() -> Session {
+        let who = |name: &str| Who {
+            name: name.to_owned(),
+            nth: 3,
+        };
+        let field = |path: &str, value| ("a \"lamp\"\n".to_owned(), path.to_owned(), value);
+        let fields = vec![
+            field("light.intensity", Field::Float(0.1)),
+            field("a", Field::Bool(true)),
+            field("b", Field::Int(i64::MIN)),
+            field("c", Field::Vec2(Vec2::new(1e-40, f32::MAX))),
+            field("d", Field::Vec3(Vec3::new(1.0 / 3.0, -0.0, 16_777_217.0))),
+            field("e", Field::Vec4(Vec3::ONE.extend(0.7))),
+            field("f", Field::Quat(Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))),
+            field("g", Field::Text("ä %20".to_owned())),
+        ];
+        let of = vec![who("a"), who("")];
+        let component = ComponentKind::Velocity;
+        let edits = [
+            Edit::Create {
+                kind: NewKind::SpotLight,
+                name: "spot light".to_owned(),
+                number: 7,
+                place: Transform {
+                    translation: Vec3::new(0.1, 0.2, 0.3),
+                    rotation: Quat::from_rotation_y(1.0),
+                    scale: Vec3::splat(1.1),
+                },
+            },
+            Edit::Copy {
+                of: of.clone(),
+                names: vec![("a".to_owned(), "a 2".to_owned())],
+                number: 9,
+            },
+            Edit::Delete { of: of.clone() },
+            Edit::Rename {
+                of: vec![(who("a"), "b".to_owned())],
+            },
+            Edit::Parent {
+                of: of.clone(),
+                to: Some(who("b")),
+            },
+            Edit::Parent {
+                of: of.clone(),
+                to: None,
+            },
+            Edit::Add {
+                of: of.clone(),
+                component,
+            },
+            Edit::Drop {
+                of: of.clone(),
+                component,
+            },
+            Edit::Tag {
+                of,
+                tag: "locked".to_owned(),
+                on: true,
+            },
+        ];
+        let edits = edits.into_iter().zip(1..).map(|(edit, greatest)| KeptEdit {
+            edit,
+            fields: fields[..1].to_vec(),
+            greatest,
+        });
+        let overlays = KeptOverlays {
+            edits: edits.collect(),
+            fields: fields.clone(),
+        };
+        let settings = Settings::new()
+            .with("lights", 256.0)
+            .with("on", true)
+            .with("model", "a=b");
+        Session {
+            project: Some("/tmp/a project".into()),
+            on_purpose: false,
+            view: "lightbench-view-1 scene=a pipeline=b".to_owned(),
+            plays: true,
+            view_b: None,
+            dials: Dials {
+                mode: Mode::Flip,
+                split: 0.3,
+                shows_b: true,
+                automatic: false,
+                rate: 1.5,
+                gain: 8.0,
+                false_colors: true,
+                opacity: 0.5,
+                speed: 0.1,
+                steps: Some(60),
+            },
+            scenes: BTreeMap::from([("a".to_owned(), settings.clone())]),
+            pipelines: BTreeMap::from([("b".to_owned(), settings)]),
+            overlays: BTreeMap::from([("a".to_owned(), overlays)]),
+        }
+    }
+
+    #[test]
+    fn a_session_is_read_as_it_was_written() {
+        let session = session();
+        let text = session.to_json();
+        let read = Session::from_json(&text).unwrap();
+        assert_eq!(read, session);
+        // The sign of a zero counts too.
+        let fields = &read.overlays["a"].fields;
+        let Field::Vec3(d) = fields[4].2 else {
+            panic!("{:?}", fields[4])
+        };
+        assert!(d.y.is_sign_negative());
+    }
+
+    #[test]
+    fn what_is_damaged_is_no_session() {
+        let text = session().to_json();
+        for end in 0..text.len() {
+            if text.is_char_boundary(end) {
+                assert_eq!(Session::from_json(&text[..end]), None, "{end}");
+            }
+        }
+        for (old, new) in [
+            ("\"version\":1", "\"version\":2"),
+            ("spot light\",\"name", "spotlight\",\"name"),
+            ("Velocity", "Speed"),
+        ] {
+            assert!(text.contains(old), "{old} in {text}");
+            assert_eq!(Session::from_json(&text.replace(old, new)), None, "{old}");
+        }
+    }
+}
