@@ -330,6 +330,8 @@ fn the_history_goes_to_any_step_over_fields_parameters_and_resets() {
         (60.0, Some("1.5"))
     );
 
+    // High enough for all rows.
+    bench.harness.set_size(egui::vec2(1280.0, 1300.0));
     bench.show(Panel::History);
     let click = |bench: &mut Bench, label: &str| {
         let node = bench.harness.get_by_role_and_label(Role::Button, label);

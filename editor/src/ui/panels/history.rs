@@ -6,13 +6,16 @@ use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
 use crate::ui::messages::say;
 
-/// The part of the panel's height that steps have; views have the rest.
-const SHARE: f32 = 0.62;
+/// The most of the panel's height that views have; steps have the rest.
+const SHARE: f32 = 0.4;
 
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let whole = ui.available_height();
-    ui.push_id("steps", |ui| steps(editor, ui, whole * SHARE));
+    let row = ui.spacing().interact_size.y + 1.0;
+    let wanted = (editor.workbench.views.all().len() + 2) as f32 * row;
+    let rest = whole - wanted.min(whole * SHARE);
+    ui.push_id("steps", |ui| steps(editor, ui, rest));
     ui.separator();
     ui.push_id("views", |ui| views(editor, ui));
 }

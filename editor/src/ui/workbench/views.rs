@@ -36,6 +36,8 @@ pub struct Views {
     at: usize,
     /// When the camera moved last.
     moved: Option<Instant>,
+    /// Whether a button or a key was held when it was looked last.
+    held: bool,
     /// Whether a change counts as made by the program.
     absorbs: bool,
     revision: u64,
@@ -100,6 +102,17 @@ impl Workbench {
     /// Takes note of where the camera is and what is chosen. `held` says that a mouse button or a key is
     /// held down: until it is let go a gesture goes on.
     pub fn note_view(&mut self, now: Instant, held: bool) {
+        let was_held = std::mem::replace(&mut self.views.held, held);
+        if held && !was_held {
+            self.views.seal();
+        }
+        self.note_present_view(now, held);
+        if was_held && !held {
+            self.views.seal();
+        }
+    }
+
+    fn note_present_view(&mut self, now: Instant, held: bool) {
         if self.is_between_scenes() || self.scenes.scene().is_none() {
             return;
         }
