@@ -14,6 +14,7 @@ use super::editor::Editor;
 use super::keeping::open_recovery;
 use super::layout::Panel;
 use super::panels::saving::Saving;
+use crate::ui::messages::say;
 
 /// The file of a scene or a pipeline that is known by its name.
 fn file_of(folder: &str, name: &str) -> String {
@@ -115,7 +116,9 @@ impl Editor {
         match saved {
             Ok(()) => true,
             Err(error) => {
-                self.workbench.log.error(format!("Not saved: {error}."));
+                self.workbench
+                    .log
+                    .error(say!("coding.not_saved", error = error));
                 false
             }
         }
@@ -134,7 +137,11 @@ impl Editor {
     pub(super) fn copy_into_project(&mut self, path: &str) -> bool {
         match self.workbench.files().copy_to_project(path) {
             Ok(place) => {
-                let text = format!("{path} is now in the project: {}.", place.display());
+                let text = say!(
+                    "coding.is_now_in_the_project",
+                    path = path,
+                    place = place.display()
+                );
                 self.workbench.log.info(text);
                 let paths = [path.to_owned()];
                 self.code.refresh(self.workbench.files(), Some(&paths));

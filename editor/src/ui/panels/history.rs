@@ -9,9 +9,19 @@ use crate::ui::messages::say;
 /// The most of the panel's height that views have; steps have the rest.
 const SHARE: f32 = 0.4;
 
+/// From this width on views stand beside the steps.
+const WIDE: f32 = 420.0;
+
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let whole = ui.available_height();
+    if ui.available_width() >= WIDE {
+        ui.columns(2, |columns| {
+            steps(editor, &mut columns[0], whole);
+            views(editor, &mut columns[1]);
+        });
+        return;
+    }
     let row = ui.spacing().interact_size.y + 1.0;
     let wanted = (editor.workbench.views.all().len() + 2) as f32 * row;
     let rest = whole - wanted.min(whole * SHARE);

@@ -4,6 +4,8 @@
 //! stays until the next run has it in its own, or somebody gave it up.
 
 mod session;
+#[cfg(test)]
+mod tests;
 mod words;
 
 use std::fs::{self, File};
@@ -303,89 +305,4 @@ fn write(folder: &Path, session: &Session, held: &mut Option<File>) -> Result<()
     }
     let text = session.to_json();
     write_atomic(folder.join(FILE), text.as_bytes()).map_err(|error| failed(&error))
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::session::tests::session;
-    use super::*;
-
-    fn open(root: &Path) -> Recovery {
-        Recovery::open(Some(root.to_owned()), |_| true)
-    }
-
-    #[test]
-    fn a_session_is_kept_after_a_pause_and_left_to_the_next_run_alone() {
-        let folder = tempfile::tempdir().unwrap();
-        let root = folder.path().join("recovery");
-        let mut first = open(&root);
-        let now = Instant::now();
-        first.note((0, 7), now, || panic!("nothing was changed"));
-        assert_eq!(first.next_due(now), None);
-        first.note((1, 7), now, || panic!("it is too soon"));
-        assert!(first.next_due(now).is_some_and(|due| due <= PAUSE));
-        first.note((2, 7), now + PAUSE, || Some(session()));
-        first.note((2, 7), now + PAUSE * 2, || panic!("it is kept"));
-        first.wait();
-        assert!(open(&root).left.is_empty(), "it is being worked on");
-        drop(first);
-        let mut second = open(&root);
-        assert_eq!(second.left.len(), 1);
-        assert!(open(&root).left.is_empty(), "one run offers it");
-        assert_eq!(second.take_over(), Some(session()));
-        drop(second);
-        // It went over into the file of the second run, which ended in the same way.
-        let mut third = open(&root);
-        assert_eq!(third.left.len(), 1);
-        third.throw_away();
-        drop(third);
-        assert!(open(&root).left.is_empty());
-        assert_eq!(fs::read_dir(&root).unwrap().count(), 0);
-    }
-
-    #[test]
-    fn what_was_given_up_is_not_offered() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut first = open(folder.path());
-        first.keep_now(session()).unwrap();
-        first.forget();
-        drop(first);
-        assert!(open(folder.path()).left.is_empty());
-        let mut first = open(folder.path());
-        first.keep_now(session()).unwrap();
-        drop(first);
-        let other = Recovery::open(Some(folder.path().to_owned()), |_| false);
-        assert!(other.left.is_empty());
-        drop(other);
-        assert_eq!(
-            open(folder.path()).left.len(),
-            1,
-            "it waits for its project"
-        );
-    }
-
-    #[test]
-    fn a_folder_that_cannot_be_made_is_told_once_and_tried_again() {
-        let folder = tempfile::tempdir().unwrap();
-        let root = folder.path().join("recovery");
-        fs::write(&root, "a file").unwrap();
-        let mut first = open(&root);
-        let began = Instant::now();
-        let mut told = Vec::new();
-        for round in 0..40_u32 {
-            let now = began + PAUSE * round;
-            first.note((u64::from(round) + 1, 0), now, || Some(session()));
-            first.wait();
-            told.extend(first.take_news());
-            if round == 20 {
-                fs::remove_file(&root).unwrap();
-            }
-        }
-        assert_eq!(told.len(), 2, "{told:?}");
-        assert!(told[0].as_ref().is_err_and(|why| why.contains("not kept")));
-        assert!(told[1].is_ok());
-        drop(first);
-        assert_eq!(open(&root).left.len(), 1);
-    }
 }

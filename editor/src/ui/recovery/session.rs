@@ -122,9 +122,19 @@ fn all_from(value: &Value) -> Option<BTreeMap<String, Settings>> {
         .collect()
 }
 
+/// The name of a way to show both pictures, in files.
+fn mode_name(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Split => "split",
+        Mode::Flicker => "flicker",
+        Mode::Difference => "difference",
+        Mode::Flip => "flip",
+    }
+}
+
 fn dials_to(dials: &Dials) -> Value {
     json!({
-        "mode": dials.mode.title(),
+        "mode": mode_name(dials.mode),
         "split": f64::from(dials.split),
         "shows_b": dials.shows_b,
         "automatic": dials.automatic,
@@ -143,7 +153,9 @@ fn dials_from(value: &Value) -> Option<Dials> {
     let mode = value["mode"].as_str()?;
     let steps = value["steps"].as_u64().and_then(|n| u32::try_from(n).ok());
     Some(Dials {
-        mode: Mode::ALL.into_iter().find(|known| known.title() == mode)?,
+        mode: Mode::ALL
+            .into_iter()
+            .find(|known| mode_name(*known) == mode)?,
         split: single("split")?.clamp(0.0, 1.0),
         shows_b: value["shows_b"].as_bool()?,
         automatic: value["automatic"].as_bool()?,
@@ -154,144 +166,4 @@ fn dials_from(value: &Value) -> Option<Dials> {
         speed: number("speed")?,
         steps,
     })
-}
-
-#[cfg(test)]
-pub(super) mod tests {
-    #![allow(clippy::unwrap_used)]
-    use lightbench::script::overlays::{Edit, KeptEdit, NewKind, Who};
-    use lightbench::world::glam::{Quat, Vec2, Vec3};
-    use lightbench::world::{ComponentKind, Transform, Value as Field};
-
-    use super::*;
-
-    /// A session with one of everything.
-    pub fn session() -> Session {
-        let who = |name: &str| Who {
-            name: name.to_owned(),
-            nth: 3,
-        };
-        let field = |path: &str, value| ("a \"lamp\"\n".to_owned(), path.to_owned(), value);
-        let fields = vec![
-            field("light.intensity", Field::Float(0.1)),
-            field("a", Field::Bool(true)),
-            field("b", Field::Int(i64::MIN)),
-            field("c", Field::Vec2(Vec2::new(1e-40, f32::MAX))),
-            field("d", Field::Vec3(Vec3::new(1.0 / 3.0, -0.0, 16_777_217.0))),
-            field("e", Field::Vec4(Vec3::ONE.extend(0.7))),
-            field("f", Field::Quat(Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))),
-            field("g", Field::Text("ä %20".to_owned())),
-        ];
-        let of = vec![who("a"), who("")];
-        let component = ComponentKind::Velocity;
-        let edits = [
-            Edit::Create {
-                kind: NewKind::SpotLight,
-                name: "spot light".to_owned(),
-                number: 7,
-                place: Transform {
-                    translation: Vec3::new(0.1, 0.2, 0.3),
-                    rotation: Quat::from_rotation_y(1.0),
-                    scale: Vec3::splat(1.1),
-                },
-            },
-            Edit::Copy {
-                of: of.clone(),
-                names: vec![("a".to_owned(), "a 2".to_owned())],
-                number: 9,
-            },
-            Edit::Delete { of: of.clone() },
-            Edit::Rename {
-                of: vec![(who("a"), "b".to_owned())],
-            },
-            Edit::Parent {
-                of: of.clone(),
-                to: Some(who("b")),
-            },
-            Edit::Parent {
-                of: of.clone(),
-                to: None,
-            },
-            Edit::Add {
-                of: of.clone(),
-                component,
-            },
-            Edit::Drop {
-                of: of.clone(),
-                component,
-            },
-            Edit::Tag {
-                of,
-                tag: "locked".to_owned(),
-                on: true,
-            },
-        ];
-        let edits = edits.into_iter().zip(1..).map(|(edit, greatest)| KeptEdit {
-            edit,
-            fields: fields[..1].to_vec(),
-            greatest,
-        });
-        let overlays = KeptOverlays {
-            edits: edits.collect(),
-            fields: fields.clone(),
-        };
-        let settings = Settings::new()
-            .with("lights", 256.0)
-            .with("on", true)
-            .with("model", "a=b");
-        Session {
-            project: Some("/tmp/a project".into()),
-            on_purpose: false,
-            view: "lightbench-view-1 scene=a pipeline=b".to_owned(),
-            plays: true,
-            view_b: None,
-            dials: Dials {
-                mode: Mode::Flip,
-                split: 0.3,
-                shows_b: true,
-                automatic: false,
-                rate: 1.5,
-                gain: 8.0,
-                false_colors: true,
-                opacity: 0.5,
-                speed: 0.1,
-                steps: Some(60),
-            },
-            scenes: BTreeMap::from([("a".to_owned(), settings.clone())]),
-            pipelines: BTreeMap::from([("b".to_owned(), settings)]),
-            overlays: BTreeMap::from([("a".to_owned(), overlays)]),
-        }
-    }
-
-    #[test]
-    fn a_session_is_read_as_it_was_written() {
-        let session = session();
-        let text = session.to_json();
-        let read = Session::from_json(&text).unwrap();
-        assert_eq!(read, session);
-        // The sign of a zero counts too.
-        let fields = &read.overlays["a"].fields;
-        let Field::Vec3(d) = fields[4].2 else {
-            panic!("{:?}", fields[4])
-        };
-        assert!(d.y.is_sign_negative());
-    }
-
-    #[test]
-    fn what_is_damaged_is_no_session() {
-        let text = session().to_json();
-        for end in 0..text.len() {
-            if text.is_char_boundary(end) {
-                assert_eq!(Session::from_json(&text[..end]), None, "{end}");
-            }
-        }
-        for (old, new) in [
-            ("\"version\":1", "\"version\":2"),
-            ("spot light\",\"name", "spotlight\",\"name"),
-            ("Velocity", "Speed"),
-        ] {
-            assert!(text.contains(old), "{old} in {text}");
-            assert_eq!(Session::from_json(&text.replace(old, new)), None, "{old}");
-        }
-    }
 }

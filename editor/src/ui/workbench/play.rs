@@ -28,9 +28,9 @@ impl Workbench {
         self.as_moment(name, words, |this| {
             this.clock.playing = !this.clock.playing;
             let what = if this.clock.playing {
-                "the frame from which time runs on"
+                say!("play.the_frame_from_which_time_runs")
             } else {
-                "the frame at which time was held, to the nearest step"
+                say!("play.the_frame_at_which_time_was")
             };
             this.did("time", what);
             ((), true)
@@ -42,7 +42,7 @@ impl Workbench {
         self.as_moment("step", say!("history.step"), |this| {
             this.clock.playing = false;
             this.clock.step();
-            this.noted_time = Some("one step further");
+            this.noted_time = Some(say!("play.one_step_further"));
             ((), true)
         });
     }
@@ -52,7 +52,7 @@ impl Workbench {
         self.as_moment("rewind", say!("history.rewind"), |this| {
             let before = this.clock.time();
             this.clock.rewind();
-            this.did("time", "the beginning of time");
+            this.did("time", say!("play.the_beginning_of_time"));
             ((), before != 0.0)
         });
     }
@@ -99,7 +99,7 @@ impl Workbench {
             self.scenes.set_problems(None);
         }
         self.canvas.invalidate();
-        self.did("time", "the frame from which time ran");
+        self.did("time", say!("play.the_frame_from_which_time_ran"));
     }
 
     /// Time begins to run from where the clock stood, unless it does already.

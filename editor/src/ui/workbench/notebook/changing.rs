@@ -41,7 +41,7 @@ impl Workbench {
         self.notebook.said = kept
             .unsaved
             .clone()
-            .map(|why| Err(say!("notebook.note_in_memory", why = why)));
+            .map(|why| Err(say!("notebook.the_note_is_in_memory_alone", why = why)));
         let change = Change {
             target: Target::Note(name.to_owned()),
             before: Some(Content::Text(before)),
@@ -62,12 +62,12 @@ impl Workbench {
         };
         match result {
             Err(why) if kept.png.is_none() => {
-                let text = say!("notebook.not_deleted", name = name, why = why);
+                let text = say!("notebook.was_not_deleted", name = name, why = why);
                 self.notebook.said = Some(Err(text));
             }
             _ => {
                 self.notebook.entries.retain(|k| k.entry.name != name);
-                self.notebook.said = Some(Ok(say!("notebook.deleted", name = name)));
+                self.notebook.said = Some(Ok(say!("notebook.was_deleted", name = name)));
                 let gone = Deleted(Arc::new(Gone { kept, files }));
                 let change = Change {
                     target: Target::Entry(name.to_owned()),
@@ -96,7 +96,7 @@ impl Workbench {
         }
         self.notebook.said = Some(match &kept.unsaved {
             None => Ok(say!("notebook.back", name = name)),
-            Some(why) => Err(say!("notebook.in_memory", why = why)),
+            Some(why) => Err(say!("notebook.the_entry_is_in_memory_alone", why = why)),
         });
         self.notebook.add(kept);
     }

@@ -6,6 +6,7 @@ use lightbench::world::{Entity, Name};
 
 use super::super::Workbench;
 use super::{Change, Content, Target};
+use crate::ui::messages::say;
 
 impl Workbench {
     /// Makes a target what it was or is; `other` is what it is until then.
@@ -90,7 +91,7 @@ impl Workbench {
             }
         };
         if let Err(error) = result {
-            self.log.error(format!("Not changed: {error}"));
+            self.log.error(say!("undo.not_changed", error = error));
         }
     }
 

@@ -6,6 +6,7 @@ use super::super::Workbench;
 use super::super::pipelines::Pipelines;
 use super::super::viewing::Arriving;
 use super::{Change, Content, Target};
+use crate::ui::messages::say;
 use crate::viewpoint::Eye;
 use crate::viewpoint::moment::Steps;
 
@@ -142,7 +143,7 @@ impl Workbench {
             place.pipeline.choose(&mut self.pipelines);
             self.pipeline_shown(shown.as_deref());
             let name = &place.pipeline.name;
-            self.did("pipeline", format!("the pipeline {name}"));
+            self.did("pipeline", say!("workbench.the_pipeline", name = name));
         }
         if let Some(other) = &place.other {
             self.choose_other(other);
@@ -169,7 +170,7 @@ impl Workbench {
         let settings = place.scene_settings.clone();
         self.scenes.select(&place.scene, Some(settings));
         self.scenes.poll();
-        self.did("scene", format!("the scene {}", place.scene));
+        self.did("scene", say!("workbench.the_scene", name = place.scene));
     }
 
     fn is_seen_so(&self, seen: &Seen) -> bool {
