@@ -281,7 +281,10 @@ fn closing_asks_while_changes_by_hand_are_in_no_file() {
     set_intensity(&mut bench, 5.0);
     bench.key(CTRL, Key::Q);
     assert!(!wants_to_quit(&bench));
-    assert_eq!(bench.count("still, changes by hand that are in no file: 1"), 1);
+    assert_eq!(
+        bench.count("still, changes by hand that are in no file: 1"),
+        1
+    );
     bench.press("Go on editing");
     assert_eq!(bench.count("Something would be lost"), 0);
     // The cross of the window does the same.

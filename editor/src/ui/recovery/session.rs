@@ -136,7 +136,6 @@ fn dials_to(dials: &Dials) -> Value {
     json!({
         "mode": mode_name(dials.mode),
         "split": f64::from(dials.split),
-        "shows_b": dials.shows_b,
         "automatic": dials.automatic,
         "rate": f64::from(dials.rate),
         "gain": f64::from(dials.gain),
@@ -157,7 +156,6 @@ fn dials_from(value: &Value) -> Option<Dials> {
             .into_iter()
             .find(|known| mode_name(*known) == mode)?,
         split: single("split")?.clamp(0.0, 1.0),
-        shows_b: value["shows_b"].as_bool()?,
         automatic: value["automatic"].as_bool()?,
         rate: single("rate")?,
         gain: single("gain")?,

@@ -94,7 +94,6 @@ fn session() -> Session {
         dials: Dials {
             mode: Mode::Flip,
             split: 0.3,
-            shows_b: true,
             automatic: false,
             rate: 1.5,
             gain: 8.0,

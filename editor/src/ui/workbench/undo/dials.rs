@@ -12,9 +12,7 @@ pub struct Dials {
     pub mode: Mode,
     /// Where the line between them is.
     pub split: f32,
-    /// Which of them is shown, where it does not change by itself.
-    pub shows_b: bool,
-    /// Whether it does.
+    /// Whether one of them follows the other by itself.
     pub automatic: bool,
     /// How often then.
     pub rate: f32,
@@ -36,7 +34,6 @@ impl Dials {
         let all = [
             (self.mode != other.mode, message!("history.shown_as")),
             (self.split != other.split, message!("history.split")),
-            (self.shows_b != other.shows_b, message!("history.shows_b")),
             (
                 self.automatic != other.automatic || self.rate != other.rate,
                 message!("history.flicker"),
@@ -62,7 +59,6 @@ impl Workbench {
         Dials {
             mode: comparing.mode,
             split: comparing.split,
-            shows_b: flicker.shows_b && !flicker.automatic,
             automatic: flicker.automatic,
             rate: flicker.rate,
             gain: comparing.gain,
@@ -79,7 +75,6 @@ impl Workbench {
         comparing.split = dials.split;
         comparing.flicker.automatic = dials.automatic;
         comparing.flicker.rate = dials.rate;
-        comparing.flicker.shows_b = dials.shows_b;
         comparing.gain = dials.gain;
         comparing.false_colors = dials.false_colors;
         comparing.opacity = dials.opacity;
