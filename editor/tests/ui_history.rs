@@ -219,8 +219,19 @@ fn pipelines_and_the_comparison_are_taken_back() {
     undo(&mut bench);
     assert_eq!(bench.shown(), "deferred_shading");
     assert_eq!(bench.picture(), first);
+    // The view that was turned meanwhile stays.
+    let turn = lightbench::world::glam::Vec2::new(0.1, 0.0);
+    let workbench = &mut bench.harness.state_mut().workbench;
+    let home = workbench.camera;
+    workbench.camera.look(turn);
+    let turned = workbench.camera.view();
+    bench.harness.run_steps(2);
     redo(&mut bench);
     assert_eq!(bench.shown(), second);
+    let workbench = &mut bench.harness.state_mut().workbench;
+    assert!(!workbench.is_arriving());
+    assert_eq!(workbench.camera.view(), turned);
+    workbench.camera = home;
     undo(&mut bench);
 
     bench.key(Modifiers::NONE, Key::C);

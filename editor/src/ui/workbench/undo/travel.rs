@@ -1,7 +1,7 @@
 //! The way through the steps, back and forth.
 
 use super::super::Workbench;
-use super::{Content, Step, Target};
+use super::{Change, Content, Step, Target};
 use crate::ui::messages::say;
 
 impl Workbench {
@@ -72,7 +72,7 @@ impl Workbench {
         if self.is_there_for(&step) {
             for change in &mut step.changes {
                 // What came of it shows only now: time may have run since.
-                if let Some(now) = self.content_now(&change.target) {
+                if let Some(now) = self.content_now(change) {
                     change.after = Some(now);
                 }
             }
@@ -126,10 +126,13 @@ impl Workbench {
     }
 
     /// What stands where a step was, for targets that go on changing after it.
-    fn content_now(&mut self, target: &Target) -> Option<Content> {
-        match target {
-            Target::Place(_) => Some(Content::Place(Box::new(self.place(true)))),
-            Target::Moment(_) => self.keep_moment().map(Content::Moment),
+    fn content_now(&mut self, change: &Change) -> Option<Content> {
+        match (&change.target, &change.before) {
+            (Target::Place(_), Some(Content::Place(before))) => {
+                let moves = before.seen.is_some();
+                Some(Content::Place(Box::new(self.place(moves))))
+            }
+            (Target::Moment(_), _) => self.keep_moment().map(Content::Moment),
             _ => None,
         }
     }
