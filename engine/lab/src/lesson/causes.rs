@@ -30,7 +30,9 @@ pub(super) fn is_explained(
             .collect(),
     };
     let other = compare(found, &by, bound);
-    other.compared > 0 && (other.error <= 1.0 || other.distance <= NEARER * distance)
+    // What is no number is as far from everything.
+    let nearer = other.distance.is_finite() && other.distance <= NEARER * distance;
+    other.compared > 0 && (other.error <= 1.0 || nearer)
 }
 
 /// What the picture itself tells of its mistake.
@@ -219,6 +221,16 @@ mod tests {
         let distance = compare(&found, &expected, BOUND).distance;
         let explains = |by: &Expected| is_explained(&found, &expected, by, BOUND, distance);
         assert!(explains(&of(&|_, texel| Some(texel), &found)));
+        // No number is explained by nothing.
+        let broken = image(|_, _| f32::NAN);
+        let all = of(&|_, texel| Some(texel), &found);
+        assert!(!is_explained(
+            &broken,
+            &expected,
+            &all,
+            BOUND,
+            f64::INFINITY
+        ));
         // Right about some of them.
         assert!(explains(&of(
             &|at, texel| (at < 4).then_some(texel),
