@@ -332,8 +332,8 @@ fn time_is_taken_back_with_the_scene_as_it_stood() {
     bench.key(Modifiers::NONE, Key::Period);
     let (after_two, at) = (text(&mut bench), time(&bench));
     assert_ne!(after_two, first);
-    bench.key(Modifiers::NONE, Key::Space);
     let still = place(&bench);
+    bench.key(Modifiers::NONE, Key::Space);
     bench.until("time to run", |editor| {
         editor.workbench.clock.time() > at + 0.3
     });
