@@ -97,6 +97,10 @@ pub enum Action {
     OpenScene,
     /// Show scenes, pipelines and examples.
     Gallery,
+    /// Show the lesson that is open, or all of them.
+    Lessons,
+    /// Check the lesson.
+    CheckLesson,
     /// Say what to try first.
     Welcome,
     /// What this program is.
@@ -172,6 +176,12 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
             ],
             &[
                 entry(Action::Gallery, message!("action.gallery"), None),
+                entry(Action::Lessons, message!("action.lessons"), None),
+                entry(
+                    Action::CheckLesson,
+                    message!("action.check_the_lesson"),
+                    None,
+                ),
                 entry(Action::OpenProject, message!("action.open_a_project"), None),
                 // Before the key without Shift, which fits both.
                 entry(
@@ -464,6 +474,11 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                     None,
                 ),
                 entry(Action::Toggle(Panel::Code), message!("action.code"), None),
+                entry(
+                    Action::Toggle(Panel::Lesson),
+                    message!("action.lesson"),
+                    None,
+                ),
             ],
             &[
                 entry(

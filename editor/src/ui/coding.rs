@@ -179,6 +179,8 @@ impl Editor {
             let paths: Vec<String> = touched.paths.into_iter().collect();
             let changed = (!touched.everything).then_some(paths.as_slice());
             self.code.refresh(self.workbench.files(), changed);
+            self.lessons.changed(self.workbench.files(), changed);
+            self.lesson_panel.pictures.forget();
         }
         for error in self.code.note(now) {
             self.workbench.log.error(error);
@@ -194,7 +196,9 @@ impl Editor {
     pub(super) fn ask_for(&mut self, question: Question) {
         let project = self.workbench.files().project();
         let begin_at = match question {
-            Question::Project => project.and_then(Path::parent).map(Path::to_owned),
+            Question::Project | Question::Lesson => {
+                project.and_then(Path::parent).map(Path::to_owned)
+            }
             Question::Scene | Question::SaveScene => project
                 .map(|project| project.join(SCENES))
                 .filter(|folder| folder.is_dir()),
@@ -215,6 +219,10 @@ impl Editor {
             Question::Project => self.try_to_open_project(&path),
             Question::Scene => self.try_to_open_file(&path),
             Question::SaveScene => self.save_scene_to(&path),
+            Question::Lesson => {
+                self.lessons.beginning.folder = path.to_string_lossy().into_owned();
+                Ok(())
+            }
         };
         if let Err(why) = done {
             self.dialogs.refuse(question, &path, why);
@@ -228,7 +236,7 @@ impl Editor {
         }
     }
 
-    fn try_to_open_project(&mut self, folder: &Path) -> Result<(), String> {
+    pub(super) fn try_to_open_project(&mut self, folder: &Path) -> Result<(), String> {
         let is_empty = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
         let folder: PathBuf = if is_empty || !folder.exists() {
             create_project(folder).map_err(|error| error.to_string())?
@@ -239,6 +247,7 @@ impl Editor {
         let root = self.kept.unsaved_folder();
         self.code.move_to(root, self.workbench.files());
         self.forget_opened_file();
+        self.show_scene_of_lesson();
         Ok(())
     }
 

@@ -11,6 +11,8 @@ use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
 use lightbench::script::SCENE_EXTENSION;
 use rfd::{AsyncFileDialog, FileHandle};
 
+use super::messages::say;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
@@ -20,6 +22,8 @@ pub enum Question {
     Scene,
     /// Where to write the scene on screen.
     SaveScene,
+    /// Where to begin a lesson.
+    Lesson,
 }
 
 impl Question {
@@ -28,6 +32,7 @@ impl Question {
             Self::Project => "Open a project",
             Self::Scene => "Open a scene",
             Self::SaveScene => "Save the scene as",
+            Self::Lesson => say!("lesson.folder_title"),
         }
     }
 
@@ -40,6 +45,7 @@ impl Question {
                 "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb)."
             }
             Self::SaveScene => "The file to write. It ends in .scene and holds the entities.",
+            Self::Lesson => say!("lesson.folder_about"),
         }
     }
 }
@@ -106,7 +112,7 @@ impl Dialogs {
             dialog = dialog.set_directory(folder);
         }
         let answer: Answer = match question {
-            Question::Project => Box::pin(dialog.pick_folder()),
+            Question::Project | Question::Lesson => Box::pin(dialog.pick_folder()),
             Question::Scene => {
                 let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
                 Box::pin(dialog.add_filter("Scenes and models", &endings).pick_file())

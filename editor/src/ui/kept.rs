@@ -13,6 +13,17 @@ const MOST_LINES: usize = 200;
 /// Scenes that are kept.
 const MOST_SCENES: usize = 8;
 
+/// What is kept of lessons.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KeptLessons {
+    /// The language, by its code.
+    pub language: String,
+    /// The lesson that is open, by its name; may be empty.
+    pub open: String,
+    /// The student for whom one was begun last; may be empty.
+    pub student: String,
+}
+
 /// What is kept, and where.
 #[derive(Debug, Default)]
 pub struct Kept {
@@ -25,6 +36,8 @@ pub struct Kept {
     pub scenes: Vec<String>,
     /// The pipelines of number keys from 1, where somebody gave a key to one.
     pub favourites: BTreeMap<usize, String>,
+    /// What is kept of lessons.
+    pub lessons: KeptLessons,
     /// What other versions of the program have written.
     others: Map<String, Value>,
 }
@@ -74,12 +87,27 @@ impl Kept {
                 .collect(),
             _ => BTreeMap::new(),
         };
+        let lessons = match others.remove("lessons") {
+            Some(Value::Object(map)) => {
+                let text = |name: &str| {
+                    let text = map.get(name).and_then(Value::as_str);
+                    text.unwrap_or_default().to_owned()
+                };
+                KeptLessons {
+                    language: text("language"),
+                    open: text("open"),
+                    student: text("student"),
+                }
+            }
+            _ => KeptLessons::default(),
+        };
         Self {
             is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
             scenes,
             favourites,
+            lessons,
             others,
         }
     }
@@ -127,6 +155,18 @@ impl Kept {
         self.write()
     }
 
+    /// Keeps what is open of lessons.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. It is there until the program ends.
+    pub fn remember_lessons(&mut self, lessons: KeptLessons) -> Result<(), String> {
+        if self.lessons == lessons {
+            return Ok(());
+        }
+        self.lessons = lessons;
+        self.write()
+    }
+
     fn write(&self) -> Result<(), String> {
         let Some(path) = &self.path else {
             return Ok(());
@@ -138,6 +178,19 @@ impl Kept {
             let favourites = self.favourites.iter();
             let favourites = favourites.map(|(key, name)| (key.to_string(), name.clone().into()));
             all.insert("favourites".to_owned(), Value::Object(favourites.collect()));
+        }
+        if self.lessons != KeptLessons::default() {
+            let KeptLessons {
+                language,
+                open,
+                student,
+            } = &self.lessons;
+            let lessons = [("language", language), ("open", open), ("student", student)];
+            let lessons = lessons.map(|(name, text)| (name.to_owned(), text.clone().into()));
+            all.insert(
+                "lessons".to_owned(),
+                Value::Object(lessons.into_iter().collect()),
+            );
         }
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
@@ -208,6 +261,22 @@ mod tests {
         }
         assert_eq!(kept.scenes.len(), MOST_SCENES);
         assert_eq!(kept.scenes[0], "19");
+    }
+
+    #[test]
+    fn the_open_lesson_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("editor.json");
+        let lessons = KeptLessons {
+            language: "es".to_owned(),
+            open: "01-a".to_owned(),
+            student: "ana \"x\"".to_owned(),
+        };
+        let mut kept = Kept::read(Some(path.clone()));
+        kept.remember_lessons(lessons.clone()).unwrap();
+        assert_eq!(Kept::read(Some(path.clone())).lessons, lessons);
+        std::fs::write(&path, "{\"lessons\": {\"open\": 3}}").unwrap();
+        assert_eq!(Kept::read(Some(path)).lessons, KeptLessons::default());
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
+use super::messages::say;
+
 /// A panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Panel {
@@ -37,6 +39,8 @@ pub enum Panel {
     Notebook,
     /// Scripts and shaders.
     Code,
+    /// A lesson: its text, its tasks and what a check found.
+    Lesson,
 }
 
 impl Panel {
@@ -59,6 +63,7 @@ impl Panel {
             Self::Compare => "Compare",
             Self::Notebook => "Notebook",
             Self::Code => "Code",
+            Self::Lesson => say!("lesson.panel"),
         }
     }
 }
@@ -73,6 +78,7 @@ pub fn first() -> Tree<Panel> {
             .collect();
         tiles.insert_tab_tile(panes)
     };
+    let lesson = tabs(&[Panel::Lesson]);
     let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
     let log = tabs(&[
@@ -104,10 +110,11 @@ pub fn first() -> Tree<Panel> {
     let root = split(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(code, 0.5), (left, 0.62), (right, 0.38)],
+        &[(lesson, 0.5), (code, 0.5), (left, 0.62), (right, 0.38)],
     );
     let mut tree = Tree::new(egui::Id::unique("panels"), root, tiles);
-    // It takes its place when a file is opened.
+    // They take their places when a lesson or a file is opened.
+    set_visible(&mut tree, Panel::Lesson, false);
     set_visible(&mut tree, Panel::Code, false);
     tree
 }

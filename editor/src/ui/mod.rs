@@ -14,6 +14,8 @@ pub mod gallery;
 pub mod kept;
 pub mod layout;
 pub mod lens;
+pub mod lesson;
+mod lessoning;
 pub(crate) mod messages;
 mod panels;
 mod screen;

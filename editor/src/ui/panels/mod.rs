@@ -11,6 +11,7 @@ pub mod heat_map;
 pub mod help;
 pub mod histogram;
 pub mod history;
+pub mod lesson;
 pub mod log;
 pub mod marks;
 pub mod menu;

@@ -34,6 +34,17 @@ fn color(kind: Kind, dark: bool) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
+/// A short piece of code with its colours, for elsewhere.
+pub fn listing(language: Language, text: &str, dark: bool) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    tokens::read(language, text, &mut |range, kind| {
+        let format = TextFormat::simple(font(), color(kind, dark));
+        job.append(&text[range], 0.0, format);
+    });
+    job.wrap = TextWrapping::no_max_width();
+    job
+}
+
 /// What the drawn text was made from.
 struct Made {
     text: String,

@@ -2,7 +2,7 @@
 
 mod find;
 pub mod leaving;
-mod lines;
+pub mod lines;
 mod list;
 mod notes;
 mod text;
