@@ -85,6 +85,18 @@ fn check(bench: &mut Bench) -> Outcome {
     outcome(bench)
 }
 
+fn shot(bench: &mut Bench, name: &str) {
+    if let Some(folder) = std::env::var_os("SHOTS") {
+        bench.harness.run_steps(3);
+        bench
+            .harness
+            .render()
+            .unwrap()
+            .save(Path::new(&folder).join(name))
+            .unwrap();
+    }
+}
+
 #[test]
 fn a_lesson_is_begun_checked_solved_and_checked_again() {
     let settings = TempDir::new().unwrap();
@@ -103,6 +115,7 @@ fn a_lesson_is_begun_checked_solved_and_checked_again() {
         0
     );
 
+    shot(&mut bench, "begin.png");
     // A folder with something in it is refused, and told.
     let place = TempDir::new().unwrap();
     fs::write(place.path().join("mine.txt"), "mine").unwrap();
@@ -183,6 +196,7 @@ fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     assert_eq!(matt.points, 0);
     let finding = matt.findings.iter().find(|finding| !finding.holds).unwrap();
     assert_eq!(finding.pictures.len(), 3, "expected, yours, difference");
+    shot(&mut bench, "results.png");
     // All is explained: the cause, the numbers, three pictures beside each other.
     let cause = &finding.cause.as_ref().unwrap().en;
     assert!(bench.count(cause) >= 1, "{cause}");
@@ -213,6 +227,7 @@ fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     };
     click(&mut bench, Role::Button, &finding.pictures[1].1.en);
     assert!(larger(&bench));
+    shot(&mut bench, "larger.png");
     bench.press("Close");
     assert!(!larger(&bench));
     click(&mut bench, Role::Link, "Read #lambert");
@@ -325,6 +340,31 @@ fn answers_are_typed_and_written() {
         let open = editor.lessons.open.as_ref().unwrap();
         open.typed["passes"].value == "3.5"
     });
+}
+
+/// A letter that the fonts do not have would end the test.
+#[test]
+fn all_lessons_can_be_shown_in_both_languages() {
+    let mut bench = Bench::open();
+    bench.show(Panel::Lesson);
+    let files = bench.files.clone();
+    let lessons = lightbench::lab::lesson::list_lessons(&files).unwrap();
+    assert!(lessons.len() >= 2);
+    for name in lessons {
+        for (_, language) in Language::ALL {
+            for page in [Page::Text, Page::Tasks, Page::Parameters] {
+                let editor = bench.harness.state_mut();
+                editor.lessons.speak(language);
+                editor.open_lesson(&name);
+                editor.lessons.page = page;
+                bench.harness.run_steps(2);
+                let open = bench.harness.state().lessons.open.as_ref();
+                let open = open.unwrap_or_else(|| panic!("{name} does not open"));
+                let title = open.lesson.about.title.in_language(language).to_owned();
+                assert!(bench.count(&title) >= 1, "{title}");
+            }
+        }
+    }
 }
 
 #[test]

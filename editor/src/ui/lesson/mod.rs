@@ -2,6 +2,7 @@
 //! what is typed to begin one or to answer its questions.
 
 pub mod checking;
+pub mod letters;
 pub mod pictures;
 pub mod places;
 

@@ -99,6 +99,12 @@ pub fn formula_without_paper(svg: &str, ink: &str) -> String {
     lines.join("\n").replace(FORMULA_INK, ink)
 }
 
+/// Whether a formula is drawn with outlines alone, and so looks alike everywhere.
+#[must_use]
+pub fn has_glyphs_only(svg: &str) -> bool {
+    !svg.contains("<text") && !svg.contains("<image")
+}
+
 /// Pieces of a paragraph, and the places that stand in it.
 #[derive(Default)]
 struct Line {

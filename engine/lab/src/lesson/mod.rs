@@ -33,7 +33,7 @@ pub use check::{CheckError, CheckEvent, CheckOptions, check};
 pub use compare::MARGIN;
 pub use copies::{CopiedFrom, copied_from, says_the_same};
 pub use document::{
-    Block, FORMULA_INK, FORMULAS, Piece, Run, formula_without_paper, read_document,
+    Block, FORMULA_INK, FORMULAS, Piece, Run, formula_without_paper, has_glyphs_only, read_document,
 };
 pub use folders::{LessonOf, begin, lesson_of, pack};
 

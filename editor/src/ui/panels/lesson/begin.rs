@@ -18,7 +18,7 @@ pub(super) fn list(lessons: &mut Lessons, ui: &mut Ui, files: &Files, given: &mu
             match &lesson.title {
                 Ok(title) => {
                     let number = lesson.name.split('-').next().unwrap_or_default();
-                    let text = format!("{number}  {}", given.words(title));
+                    let text = format!("{number}  {}", super::plain(given.words(title)));
                     ui.horizontal(|ui| {
                         if ui.link(text).clicked() {
                             *given.wish = Some(Wish::Open(lesson.name.clone()));

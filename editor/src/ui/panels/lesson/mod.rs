@@ -8,6 +8,7 @@ use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use lightbench::lab::lesson::{Language, Words};
 
 use crate::ui::editor::Editor;
+use crate::ui::lesson::letters::{parts, shown};
 use crate::ui::lesson::pictures::Pictures;
 use crate::ui::lesson::{Lessons, Open, Page};
 use crate::ui::messages::{self, message};
@@ -105,7 +106,7 @@ fn top(lessons: &Lessons, ui: &mut Ui, given: &mut Given) {
                 *given.wish = Some(Wish::Close);
             }
             let title = given.words(&open.lesson.about.title);
-            ui.label(RichText::new(title).strong());
+            ui.label(shown(ui, title, text::BODY, RichText::strong));
             ui.label(points_so_far(open, given));
         }
         for (code, language) in Language::ALL {
@@ -144,7 +145,7 @@ fn check(lessons: &Lessons, ui: &mut Ui, given: &mut Given) {
             }
             let text = match title.is_empty() {
                 true => given.say(message!("lesson.starts"), message!("lesson.starts_es")),
-                false => &title,
+                false => &plain(&title),
             };
             let bar = ProgressBar::new(fraction).text(text);
             ui.add(bar.desired_width(ui.available_width().max(120.0)));
@@ -160,6 +161,11 @@ fn check(lessons: &Lessons, ui: &mut Ui, given: &mut Given) {
             }
         }
     });
+}
+
+/// A text with all letters on the line, where no others can be shown.
+fn plain(text: &str) -> String {
+    parts(text).into_iter().map(|(part, _)| part).collect()
 }
 
 /// `7 of 18 points`, or all that there are where nothing was checked.

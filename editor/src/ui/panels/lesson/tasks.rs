@@ -7,7 +7,9 @@ use lightbench::lab::lesson::{
     CriterionOutcome, Finding, Question, Refusal, State, Task, TaskOutcome,
 };
 
+use super::text::BODY;
 use super::{Given, Wish, of_all};
+use crate::ui::lesson::letters::shown;
 use crate::ui::lesson::{CHECKED, Open};
 use crate::ui::messages::message;
 use crate::ui::theme::Palette;
@@ -66,7 +68,7 @@ fn heading(title: &str, outcome: Option<&TaskOutcome>, of: u32, ui: &mut Ui, giv
     };
     let full = outcome.is_some_and(|outcome| outcome.points == outcome.of);
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(title).strong().size(14.5));
+        ui.label(shown(ui, title, 14.5, RichText::strong));
         let points = RichText::new(points);
         ui.label(if full {
             points.color(right(ui))
@@ -82,7 +84,7 @@ fn one(task: &Task, outcome: Option<&TaskOutcome>, ui: &mut Ui, given: &mut Give
     let Some(outcome) = outcome else {
         for criterion in &task.criteria {
             let text = format!("• {} ({})", given.words(&criterion.says), criterion.points);
-            ui.label(text);
+            ui.label(shown(ui, &text, BODY, |text| text));
         }
         return;
     };
@@ -98,8 +100,9 @@ fn one(task: &Task, outcome: Option<&TaskOutcome>, ui: &mut Ui, given: &mut Give
 }
 
 fn refused(refusal: &Refusal, shown: &str, ui: &mut Ui, given: &mut Given) {
-    let text = RichText::new(given.words(&refusal.says)).color(Palette::of(ui).error);
-    ui.label(text);
+    let error = Palette::of(ui).error;
+    let text = given.words(&refusal.says);
+    ui.label(shown(ui, text, BODY, |text| text.color(error)));
     if let Some(place) = refusal.read.as_deref().filter(|place| *place != shown) {
         read(place, ui, given);
     }
@@ -126,7 +129,7 @@ fn criterion(judged: &CriterionOutcome, shown: &str, ui: &mut Ui, given: &mut Gi
     };
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(state).color(color).strong());
-        ui.label(given.words(&judged.says));
+        ui.label(shown(ui, given.words(&judged.says), BODY, |text| text));
         ui.weak(format!("({})", of_all(judged.points, judged.of, given)));
         if judged.marked {
             let near = given.say(message!("lesson.near"), message!("lesson.near_es"));
@@ -143,7 +146,7 @@ fn criterion(judged: &CriterionOutcome, shown: &str, ui: &mut Ui, given: &mut Gi
 fn finding(finding: &Finding, shown: &str, ui: &mut Ui, given: &mut Given) {
     if let Some(cause) = &finding.cause {
         let cause = given.words(cause);
-        ui.label(RichText::new(cause).strong());
+        ui.label(shown(ui, cause, BODY, RichText::strong));
     }
     let lines = [
         (
@@ -167,7 +170,7 @@ fn finding(finding: &Finding, shown: &str, ui: &mut Ui, given: &mut Given) {
             let name = given.say(english, spanish);
             ui.horizontal_wrapped(|ui| {
                 ui.weak(name);
-                ui.label(given.words(words));
+                ui.label(shown(ui, given.words(words), BODY, |text| text));
             });
         }
     }
@@ -203,9 +206,9 @@ fn pictures(finding: &Finding, ui: &mut Ui, given: &mut Given) {
 
 fn picture(file: &PathBuf, alt: &str, width: f32, ui: &mut Ui, given: &mut Given) {
     match given.panel.pictures.of_file(ui.ctx(), file) {
-        Ok(shown) => {
-            let size = shown.size * (width / shown.size.x);
-            let image = Image::new(&shown.texture).fit_to_exact_size(size);
+        Ok(drawn) => {
+            let size = drawn.size * (width / drawn.size.x);
+            let image = Image::new(&drawn.texture).fit_to_exact_size(size);
             let button = ui.add(egui::Button::image(image).frame(false));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, alt));
             let about = given.say(message!("lesson.larger"), message!("lesson.larger_es"));
@@ -269,7 +272,7 @@ fn asked(open: &mut Open, question: &Question, ui: &mut Ui, given: &mut Given) {
         .cloned();
     let title = given.say(message!("lesson.question"), message!("lesson.question_es"));
     heading(title, outcome.as_ref(), question.points, ui, given);
-    ui.label(given.words(&question.asks));
+    ui.label(shown(ui, given.words(&question.asks), BODY, |text| text));
     read(&question.read, ui, given);
     if open.begun.is_some() {
         answer(open, question, ui, given);

@@ -1,11 +1,12 @@
 //! The text of a lesson as widgets.
 
-use egui::{Align, Frame, Image, RichText, ScrollArea, TextStyle, Ui};
+use egui::{Align, Frame, Image, RichText, ScrollArea, TextStyle, Ui, WidgetText};
 use lightbench::lab::lesson::{Block, Piece, Run};
 
 use super::{Given, Wish};
 use crate::ui::code::tokens::Language;
 use crate::ui::lesson::Open;
+use crate::ui::lesson::letters::shown;
 use crate::ui::lesson::pictures::Shown;
 use crate::ui::messages::message;
 use crate::ui::panels::code::lines::listing;
@@ -13,6 +14,9 @@ use crate::ui::theme::Palette;
 
 /// Points of a letter for which formulas are drawn as large as their files say.
 const FORMULA_TEXT: f32 = 16.0;
+
+/// Points of a letter of the text.
+pub(super) const BODY: f32 = 13.0;
 
 /// Draws the text, and goes to a place of it.
 pub(super) fn show(open: &Open, going: &mut Option<String>, ui: &mut Ui, given: &mut Given) {
@@ -126,19 +130,20 @@ impl Text<'_, '_> {
     }
 
     fn run(&mut self, run: &Run, heading: Option<f32>, ui: &mut Ui) {
-        let mut text = RichText::new(&run.text);
-        if run.strong || heading.is_some() {
-            text = text.strong();
-        }
-        if run.emphasis {
-            text = text.italics();
-        }
-        if run.code {
-            text = text.code();
-        }
-        if let Some(size) = heading {
-            text = text.size(size);
-        }
+        let look = |mut text: RichText| {
+            if run.strong || heading.is_some() {
+                text = text.strong();
+            }
+            if run.emphasis {
+                text = text.italics();
+            }
+            match run.code {
+                true => text.code(),
+                false => text,
+            }
+        };
+        let size = heading.unwrap_or(BODY);
+        let text = shown(ui, &run.text, size, look);
         match &run.link {
             Some(link) => {
                 if ui.link(text).on_hover_text(link).clicked() {
@@ -183,17 +188,17 @@ impl Text<'_, '_> {
     fn figure(&mut self, path: &str, alt: &str, ui: &mut Ui) {
         ui.add_space(2.0);
         match self.load(path, ui) {
-            Ok(shown) if shown.is_formula => {
+            Ok(picture) if picture.is_formula => {
                 ScrollArea::horizontal().show(ui, |ui| {
                     ui.horizontal(|ui| {
                         ui.add_space(16.0);
-                        ui.add(image(&shown, alt, ui));
+                        ui.add(image(&picture, alt, ui));
                     });
                 });
             }
-            Ok(shown) => {
-                ui.add(image(&shown, alt, ui));
-                ui.label(RichText::new(alt).small().weak());
+            Ok(picture) => {
+                ui.add(image(&picture, alt, ui));
+                ui.label(shown_small(ui, alt));
             }
             Err(why) => no_picture(&why, alt, ui),
         }
@@ -203,7 +208,7 @@ impl Text<'_, '_> {
     /// A picture between words.
     fn picture(&mut self, path: &str, alt: &str, ui: &mut Ui) {
         match self.load(path, ui) {
-            Ok(shown) => _ = ui.add(image(&shown, alt, ui)),
+            Ok(picture) => _ = ui.add(image(&picture, alt, ui)),
             Err(why) => no_picture(&why, alt, ui),
         }
     }
@@ -214,8 +219,14 @@ impl Text<'_, '_> {
     }
 }
 
+/// Words below a picture.
+fn shown_small(ui: &Ui, text: &str) -> WidgetText {
+    shown(ui, text, 11.0, RichText::weak)
+}
+
 fn no_picture(why: &str, alt: &str, ui: &mut Ui) {
-    let text = RichText::new(alt).color(Palette::of(ui).warning);
+    let warning = Palette::of(ui).warning;
+    let text = shown(ui, alt, BODY, |text| text.color(warning));
     ui.label(text).on_hover_text(why);
 }
 
