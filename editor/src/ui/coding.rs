@@ -13,6 +13,7 @@ use super::dialogs::Question;
 use super::editor::Editor;
 use super::layout::Panel;
 use super::panels::saving::Saving;
+use crate::ui::messages::say;
 
 /// The file of a scene or a pipeline that is known by its name.
 fn file_of(folder: &str, name: &str) -> String {
@@ -114,7 +115,9 @@ impl Editor {
         match saved {
             Ok(()) => true,
             Err(error) => {
-                self.workbench.log.error(format!("Not saved: {error}."));
+                self.workbench
+                    .log
+                    .error(say!("coding.not_saved", error = error));
                 false
             }
         }
@@ -133,7 +136,11 @@ impl Editor {
     pub(super) fn copy_into_project(&mut self, path: &str) -> bool {
         match self.workbench.files().copy_to_project(path) {
             Ok(place) => {
-                let text = format!("{path} is now in the project: {}.", place.display());
+                let text = say!(
+                    "coding.is_now_in_the_project",
+                    path = path,
+                    place = place.display()
+                );
                 self.workbench.log.info(text);
                 let paths = [path.to_owned()];
                 self.code.refresh(self.workbench.files(), Some(&paths));

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 use lightbench::assets::files::write_atomic;
 use serde_json::{Map, Value};
 
+use crate::ui::messages::say;
+
 /// Lines of the console that are kept.
 const MOST_LINES: usize = 200;
 
@@ -194,9 +196,10 @@ impl Kept {
         }
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
-            format!(
-                "The editor's settings are not kept in {}: {error}",
-                path.display()
+            say!(
+                "kept.the_editor_settings_are_not_kept",
+                path = path.display(),
+                error = error
             )
         };
         if let Some(folder) = path.parent() {

@@ -2,7 +2,7 @@
 
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
-use super::messages::say;
+use crate::ui::messages::say;
 
 /// A panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,22 +47,22 @@ impl Panel {
     /// The words on its tab.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Viewport => "Viewport",
-            Self::Targets => "Targets",
-            Self::Pixel => "Pixel",
-            Self::Passes => "Passes",
-            Self::Pipeline => "Pipeline",
-            Self::Pipelines => "All pipelines",
-            Self::Scene => "Scene",
-            Self::Entities => "Entities",
-            Self::Log => "Log",
-            Self::Console => "Console",
-            Self::Actions => "Actions",
-            Self::Plots => "Plots",
-            Self::History => "History",
-            Self::Compare => "Compare",
-            Self::Notebook => "Notebook",
-            Self::Code => "Code",
+            Self::Viewport => say!("layout.viewport"),
+            Self::Targets => say!("layout.targets"),
+            Self::Pixel => say!("layout.pixel"),
+            Self::Passes => say!("layout.passes"),
+            Self::Pipeline => say!("layout.pipeline"),
+            Self::Pipelines => say!("layout.all_pipelines"),
+            Self::Scene => say!("layout.scene"),
+            Self::Entities => say!("layout.entities"),
+            Self::Log => say!("layout.log"),
+            Self::Console => say!("layout.console"),
+            Self::Actions => say!("layout.actions"),
+            Self::Plots => say!("layout.plots"),
+            Self::History => say!("layout.history"),
+            Self::Compare => say!("layout.compare"),
+            Self::Notebook => say!("layout.notebook"),
+            Self::Code => say!("layout.code"),
             Self::Lesson => say!("lesson.panel"),
         }
     }

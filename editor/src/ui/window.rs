@@ -15,6 +15,7 @@ use super::kept::Kept;
 use super::surface::WindowSurface;
 use super::workbench::Workbench;
 use super::{Editor, EditorOptions, theme};
+use crate::ui::messages::say;
 
 /// How often a lost device is replaced before the editor gives up.
 const MAX_LOSSES: u32 = 3;
@@ -27,9 +28,9 @@ struct Repaint {
 
 /// Opens the window and runs until it is closed.
 pub(super) fn run(options: EditorOptions) -> anyhow::Result<()> {
-    let events = EventLoop::<Repaint>::with_user_event().build().context(
-        "no window can be opened here. `lightbench compare` and `lightbench render` need none",
-    )?;
+    let events = EventLoop::<Repaint>::with_user_event()
+        .build()
+        .context(say!("window.no_window_can_be_opened_here"))?;
     let mut program = Program {
         proxy: events.create_proxy(),
         options: Some(options),
@@ -39,7 +40,7 @@ pub(super) fn run(options: EditorOptions) -> anyhow::Result<()> {
     };
     events
         .run_app(&mut program)
-        .context("the window's event loop failed")?;
+        .context(say!("window.the_window_event_loop_failed"))?;
     program.failure.map_or(Ok(()), Err)
 }
 
@@ -69,10 +70,14 @@ impl Program {
             return Ok(());
         };
         let attributes = Window::default_attributes()
-            .with_title("Lightbench")
+            .with_title(say!("window.lightbench"))
             .with_inner_size(LogicalSize::new(1440.0, 900.0))
             .with_min_inner_size(LogicalSize::new(640.0, 400.0));
-        let window = Arc::new(events.create_window(attributes).context("no window")?);
+        let window = Arc::new(
+            events
+                .create_window(attributes)
+                .context(say!("window.no_window"))?,
+        );
         let (gpu, surface) = WindowSurface::open(events, &window, &options.gpu)?;
 
         let ctx = self.context();

@@ -15,6 +15,7 @@ use lightbench::assets::files::write_atomic;
 use serde_json::{Value, json};
 
 use super::document::Document;
+use crate::ui::messages::say;
 
 /// How long a change waits for others before it is kept. With the time that writing takes this is
 /// the most that a crash can take.
@@ -247,9 +248,10 @@ fn follow(folder: &Path, order: Order) -> Result<(), String> {
 }
 
 fn complaint(folder: &Path, error: &dyn std::fmt::Display) -> String {
-    format!(
-        "Unsaved text is not kept in {}: {error}. Save it before you go on.",
-        folder.display()
+    say!(
+        "code.unsaved_text_is_not_kept",
+        folder = folder.display(),
+        error = error
     )
 }
 

@@ -13,6 +13,7 @@ use lightbench::lab::lesson::Language;
 use lightbench::render::GpuOptions;
 
 use super::{CHECKED, OUTCOME};
+use crate::ui::messages::say;
 use crate::ui::workbench::Wake;
 use crate::ui::workbench::reporting::WorkerOptions;
 
@@ -126,8 +127,7 @@ fn run(order: &Order, progress: &Progress, wake: &(dyn Fn() + Send + Sync)) -> R
 fn start(order: &Order, out: &Path) -> Result<Child, String> {
     let program = match &order.worker.program {
         Some(program) => program.clone(),
-        None => std::env::current_exe()
-            .map_err(|error| format!("can't find this program's own file: {error}"))?,
+        None => std::env::current_exe().map_err(|error| say!("lesson.no_program", why = error))?,
     };
     let mut arguments: Vec<OsString> = vec!["--project".into(), order.project.as_path().into()];
     if let Some(limits) = &order.worker.limits {
@@ -150,7 +150,13 @@ fn start(order: &Order, out: &Path) -> Result<Child, String> {
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()
-        .map_err(|error| format!("{} can't be started: {error}", program.display()))
+        .map_err(|error| {
+            say!(
+                "lesson.not_started",
+                program = program.display(),
+                why = error
+            )
+        })
 }
 
 /// Waits for the process to end, and gives what it said that is no progress.
@@ -166,7 +172,7 @@ fn follow(
             // It may have ended by itself just now.
             let _ = child.kill();
             let _ = child.wait();
-            return Err("the check was stopped".to_owned());
+            return Err(say!("lesson.stopped").to_owned());
         }
         match lines.recv_timeout(PAUSE) {
             Ok(line) => match step(&line) {
@@ -183,7 +189,7 @@ fn follow(
     }
     let status = child.wait().map_err(|error| error.to_string())?;
     match said.is_empty() {
-        true => Ok(format!("the check ended without an outcome: {status}")),
+        true => Ok(say!("lesson.no_outcome", status = status)),
         false => Ok(said.join("\n")),
     }
 }

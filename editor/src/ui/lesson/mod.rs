@@ -18,6 +18,8 @@ use lightbench::lab::lesson::{
 
 use checking::Checking;
 
+use crate::ui::messages::say;
+
 /// The folder of what a check wrote, in a project.
 pub const CHECKED: &str = "out/check";
 /// What the last check found.
@@ -321,7 +323,7 @@ impl Open {
         let written = || {
             let number = typed.value.trim().replace(',', ".");
             let value = number.parse::<f64>().ok().filter(|value| value.is_finite());
-            let value = value.ok_or_else(|| format!("`{}` is no number", typed.value))?;
+            let value = value.ok_or_else(|| say!("lesson.no_number", typed = typed.value))?;
             let file = project.join(ANSWERS);
             let text = match std::fs::read_to_string(&file) {
                 Ok(text) => text,

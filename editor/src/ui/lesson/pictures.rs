@@ -8,6 +8,8 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions, Vec2};
 use lightbench::lab::lesson::{FORMULAS, Lesson, formula_without_paper};
 use lightbench::lab::{LdrImage, Picture, svg};
 
+use crate::ui::messages::say;
+
 /// Pixels for a unit of a drawing, so that it stays sharp on screens with small pixels.
 const SHARPNESS: f32 = 3.0;
 
@@ -103,7 +105,7 @@ fn decode(path: &str, bytes: &[u8], is_formula: bool) -> Result<(LdrImage, f32),
 fn eight_bits(picture: Picture) -> Result<LdrImage, String> {
     match picture {
         Picture::Ldr(image) => Ok(image),
-        Picture::Hdr(_) => Err("a picture with 8 bits a channel is needed".to_owned()),
+        Picture::Hdr(_) => Err(say!("lesson.eight_bits").to_owned()),
     }
 }
 

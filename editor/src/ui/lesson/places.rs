@@ -3,6 +3,8 @@
 use lightbench::assets::files::Files;
 use lightbench::lab::lesson::{Lesson, STARTER, place_line};
 
+use crate::ui::messages::say;
+
 /// What a link leads to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Leads {
@@ -39,7 +41,7 @@ pub fn follow(link: &str, lesson: &Lesson, begun: bool, files: &Files) -> Leads 
         .flatten()
         .find(|path| files.exists(path))
     else {
-        return Leads::Nowhere(format!("there is no file {path}"));
+        return Leads::Nowhere(say!("lesson.no_file", file = path));
     };
     let line = match place {
         "" => None,

@@ -4,22 +4,22 @@ use egui::{RichText, ScrollArea, Ui};
 
 use crate::ui::actions::Action;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let undo = &editor.workbench.undo;
     let (done, all) = (undo.done().len(), undo.done().len() + undo.undone().len());
     if all == 0 {
-        let text = "What you change by hand appears here, to be taken back: fields, parameters, what \
-                    handles do.";
+        let text = say!("history.what_you_change_by_hand_appears");
         ui.label(RichText::new(text).weak());
         return;
     }
     let mut wanted = None;
     ui.horizontal(|ui| {
         for (title, action, enabled) in [
-            ("Undo", Action::Undo, done > 0),
-            ("Redo", Action::Redo, done < all),
+            (say!("history.undo"), Action::Undo, done > 0),
+            (say!("history.redo"), Action::Redo, done < all),
         ] {
             ui.add_enabled_ui(enabled, |ui| {
                 if ui.small_button(title).clicked() {
@@ -39,7 +39,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     area.show_rows(ui, row, all + 1, |ui, range| {
         for count in range {
             let title = match count.checked_sub(1) {
-                None => "As the script has it",
+                None => say!("history.as_the_script_has_it"),
                 Some(index) if index < done => &undo.done()[index].what,
                 Some(index) => &undo.undone()[all - 1 - index].what,
             };

@@ -81,6 +81,7 @@ use self::undo::Undo;
 use self::viewing::Arriving;
 use self::watching::{Touched, Watch};
 use super::EditorOptions;
+use crate::ui::messages::say;
 
 /// Called from any thread when there is something for [`Workbench::tick`].
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -167,10 +168,10 @@ impl Workbench {
         let summary = &gpu.summary;
         log.info(format!("{} ({})", summary.name, summary.driver_info));
         if summary.software {
-            log.warn("The processor draws: times are not those of a graphics card.");
+            log.warn(say!("workbench.the_processor_draws_times_are_not"));
         }
         for missing in &summary.missing {
-            log.warn(format!("The adapter lacks {missing}."));
+            log.warn(say!("workbench.the_adapter_lacks", missing = missing));
         }
         let resolution = Resolution::new(summary.software);
         let renderer = Renderer::new(gpu);
@@ -228,8 +229,10 @@ impl Workbench {
 
     /// Goes on with another device after one was lost. Scene, camera, time and settings stay.
     pub fn move_to(&mut self, gpu: Gpu) {
-        self.log
-            .warn(format!("Drawing goes on with {}.", gpu.summary.name));
+        self.log.warn(say!(
+            "workbench.drawing_goes_on_with",
+            name = gpu.summary.name
+        ));
         self.resolution = Resolution::new(gpu.summary.software);
         let request = self.renderer.inspector().request().cloned();
         self.renderer = Renderer::new(gpu);
@@ -275,7 +278,7 @@ impl Workbench {
         let before = self.pipelines.shown().map(str::to_owned);
         self.pipelines.select(name);
         self.pipeline_shown(before.as_deref());
-        self.did("pipeline", format!("the pipeline {name}"));
+        self.did("pipeline", say!("workbench.the_pipeline", name = name));
     }
 
     /// Loads another scene; until it is ready the present one stays.
@@ -283,7 +286,7 @@ impl Workbench {
         self.arriving = None;
         self.scenes.select(name, None);
         self.scenes.poll();
-        self.did("scene", format!("the scene {name}"));
+        self.did("scene", say!("workbench.the_scene", name = name));
     }
 
     /// All mistakes that keep the newest state off the screen.
@@ -423,13 +426,18 @@ impl Workbench {
                 News::Compiled(name, took) => {
                     let title = self.library.pipeline_title(&name).to_owned();
                     let ms = took.as_secs_f64() * 1e3;
-                    self.log.info(format!("{title}: built in {ms:.0} ms."));
+                    self.log.info(say!(
+                        "workbench.built_in_ms",
+                        title = title,
+                        ms = format_args!("{ms:.0}")
+                    ));
                 }
                 News::Values(_) => self.canvas.invalidate(),
                 News::Failed(_, problems) => self.log_problems(&problems),
-                News::LeftOut(name, settings) => self.log.warn(format!(
-                    "{name}: no longer set, because the file does not take it: {}.",
-                    settings.join(", ")
+                News::LeftOut(name, settings) => self.log.warn(say!(
+                    "workbench.no_longer_set_because_the_file",
+                    name = name,
+                    parameters = settings.join(", ")
                 )),
             }
         }

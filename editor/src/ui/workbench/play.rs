@@ -5,6 +5,7 @@ use lightbench::script::overlays::Overlays;
 
 use super::Workbench;
 use super::clock::Clock;
+use crate::ui::messages::say;
 
 /// The scene as it was when time began to run.
 pub(super) struct Before {
@@ -19,9 +20,9 @@ impl Workbench {
     pub fn play_or_pause(&mut self) {
         self.clock.playing = !self.clock.playing;
         let what = if self.clock.playing {
-            "the frame from which time runs on"
+            say!("play.the_frame_from_which_time_runs")
         } else {
-            "the frame at which time was held, to the nearest step"
+            say!("play.the_frame_at_which_time_was")
         };
         self.did("time", what);
     }
@@ -30,13 +31,13 @@ impl Workbench {
     pub fn step(&mut self) {
         self.clock.playing = false;
         self.clock.step();
-        self.noted_time = Some("one step further");
+        self.noted_time = Some(say!("play.one_step_further"));
     }
 
     /// Back to the beginning of time. The scene goes on from where it is.
     pub fn rewind(&mut self) {
         self.clock.rewind();
-        self.did("time", "the beginning of time");
+        self.did("time", say!("play.the_beginning_of_time"));
     }
 
     /// Whether there is something to go back to with [`Workbench::stop`].
@@ -70,7 +71,7 @@ impl Workbench {
             self.scenes.set_problems(None);
         }
         self.canvas.invalidate();
-        self.did("time", "the frame from which time ran");
+        self.did("time", say!("play.the_frame_from_which_time_ran"));
     }
 
     /// Time begins to run from where the clock stood, unless it does already.

@@ -10,6 +10,7 @@ use lightbench::render::{Place, Problem, Problems};
 use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_again};
 
 use super::Wake;
+use crate::ui::messages::say;
 
 /// Paths that a load has read or looked for.
 type Reads = Arc<Mutex<BTreeSet<String>>>;
@@ -271,7 +272,7 @@ impl Scenes {
         match task {
             Ok(task) => self.loading = Some(Loading { name, task, reads }),
             Err(error) => {
-                let text = format!("no thread to load the scene: {error}");
+                let text = say!("scenes.no_thread_to_load_the_scene", error = error);
                 self.problems = Some(Problem::new(Place::file(name), text).into());
             }
         }

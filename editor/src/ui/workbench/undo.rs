@@ -5,6 +5,7 @@ use lightbench::script::overlays::{Edit, Overlays};
 use lightbench::world::{Entity, Name, Value};
 
 use super::Workbench;
+use crate::ui::messages::say;
 
 /// Something that a person can change.
 #[derive(Clone, Debug, PartialEq)]
@@ -233,7 +234,7 @@ impl Workbench {
             }
         };
         if let Err(error) = result {
-            self.log.error(format!("Not changed: {error}"));
+            self.log.error(say!("undo.not_changed", error = error));
         }
     }
 

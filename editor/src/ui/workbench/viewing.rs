@@ -8,6 +8,7 @@ use lightbench::script::Settings;
 use super::Workbench;
 use super::pipelines::Pipelines;
 use super::sight::Sight;
+use crate::ui::messages::say;
 use crate::viewpoint::moment::Steps;
 use crate::viewpoint::{Eye, Viewpoint};
 
@@ -80,12 +81,7 @@ impl Workbench {
     /// What a view in words leaves out of what is on the screen, in a sentence.
     pub fn left_out_of_view(&self) -> Option<String> {
         let changed = self.overlays_now().map_or(0, |all| all.iter().count());
-        (changed > 0).then(|| {
-            format!(
-                "The view has the scene as its script says: what was changed by hand ({changed} fields) is \
-                 not in it. Copy all as script, in Entities, has that."
-            )
-        })
+        (changed > 0).then(|| say!("viewing.the_view_has_the_scene_as", changed = changed))
     }
 
     /// Goes to a view: loads its scene anew, swaps to its pipeline and moves time and camera there.
@@ -116,7 +112,7 @@ impl Workbench {
         });
         self.scenes.select(&scene, Some(settings));
         self.scenes.poll();
-        self.did("scene", format!("the scene {scene}"));
+        self.did("scene", say!("viewing.the_scene", scene = scene));
         Ok(())
     }
 
@@ -134,10 +130,7 @@ impl Workbench {
                 || project.is_some_and(|it| folder.starts_with(it))
         });
         if !is_open {
-            return Err(format!(
-                "The view names {name}, which is outside of the project: open that file first, by dropping \
-                 it onto the window, and then the view."
-            ));
+            return Err(say!("viewing.the_view_names_which_is_outside", name = name));
         }
         self.files.grant(path).map_err(|error| error.to_string())
     }
@@ -159,10 +152,8 @@ impl Workbench {
             Eye::Scene => self.reset_camera(),
             Eye::Named(name) => {
                 if !self.cameras().contains(&name) {
-                    self.log.error(format!(
-                        "The view is through the camera {name}, which the scene does not have: this is \
-                         its own one."
-                    ));
+                    self.log
+                        .error(say!("viewing.the_view_is_through_the_camera", name = name));
                 }
                 self.look_through(Sight::Camera(name));
             }

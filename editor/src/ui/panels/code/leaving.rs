@@ -4,6 +4,7 @@ use egui::{Context, Id, Key, Modal, Modifiers, RichText};
 
 use crate::ui::code::Leaving;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Answer {
@@ -34,23 +35,23 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let mut answer = None;
     let modal = Modal::new(Id::unique("leaving")).show(ctx, |ui| {
         ui.set_max_width(460.0);
-        ui.heading("Save the text first?");
+        ui.heading(say!("code.save_the_text_first"));
         for name in &names {
             ui.label(RichText::new(name).monospace());
         }
         for failure in &failures {
             let color = ui.visuals().error_fg_color;
-            ui.label(RichText::new(format!("Not saved: {failure}.")).color(color));
+            ui.label(RichText::new(say!("code.not_saved", failure = failure)).color(color));
         }
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            if ui.button("Save and close").clicked() {
+            if ui.button(say!("code.save_and_close")).clicked() {
                 answer = Some(Answer::Save);
             }
-            if ui.button("Don't save").clicked() {
+            if ui.button(say!("code.dont_save")).clicked() {
                 answer = Some(Answer::Discard);
             }
-            if ui.button("Go on editing").clicked() {
+            if ui.button(say!("code.go_on_editing")).clicked() {
                 answer = Some(Answer::Stay);
             }
         });

@@ -20,6 +20,7 @@ use self::judging::Judge;
 use self::side::Side;
 use super::Workbench;
 use super::pipelines::News;
+use crate::ui::messages::say;
 
 pub use self::judging::{Judged, Judgement};
 pub use self::numbers::{Cost, Costs};
@@ -45,10 +46,10 @@ impl Mode {
     /// The words for people.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Split => "Split",
-            Self::Flicker => "Flicker",
-            Self::Difference => "Difference",
-            Self::Flip => "FLIP",
+            Self::Split => say!("comparing.split"),
+            Self::Flicker => say!("comparing.flicker"),
+            Self::Difference => say!("comparing.difference"),
+            Self::Flip => say!("comparing.flip"),
         }
     }
 }
@@ -372,7 +373,7 @@ impl Workbench {
         self.comparing.frames.clear();
         self.canvas.invalidate();
         let name = self.pipelines.selected().to_owned();
-        self.did("pipeline", format!("the pipeline {name}"));
+        self.did("pipeline", say!("comparing.the_pipeline", name = name));
     }
 
     /// Files have changed: B is built again where it depends on them.
@@ -398,7 +399,11 @@ impl Workbench {
                 News::Compiled(name, took) => {
                     let title = self.library.pipeline_title(&name).to_owned();
                     let ms = took.as_secs_f64() * 1e3;
-                    self.log.info(format!("B, {title}: built in {ms:.0} ms."));
+                    self.log.info(say!(
+                        "comparing.b_built_in_ms",
+                        title = title,
+                        ms = format_args!("{ms:.0}")
+                    ));
                 }
                 News::Values(_) => self.canvas.invalidate(),
                 News::Failed(_, Problems(problems)) => {
@@ -406,9 +411,10 @@ impl Workbench {
                         self.log.problem(problem);
                     }
                 }
-                News::LeftOut(name, settings) => self.log.warn(format!(
-                    "B, {name}: no longer set, because the file does not take it: {}.",
-                    settings.join(", ")
+                News::LeftOut(name, settings) => self.log.warn(say!(
+                    "comparing.b_no_longer_set_because_the",
+                    name = name,
+                    parameters = settings.join(", ")
                 )),
             }
         }

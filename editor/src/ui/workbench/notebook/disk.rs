@@ -9,6 +9,7 @@ use lightbench::lab::{LdrImage, Picture};
 
 use super::Kept;
 use super::entry::Entry;
+use crate::ui::messages::say;
 
 /// The longest side of a small picture.
 const SMALL: u32 = 160;
@@ -41,9 +42,10 @@ pub(super) fn read(folder: &Path) -> (Vec<Kept>, Vec<String>) {
                     unsaved: None,
                 });
             }
-            Err(error) => problems.push(format!(
-                "{} is left out of the notebook: {error}.",
-                path.display()
+            Err(error) => problems.push(say!(
+                "notebook.is_left_out_of_the_notebook",
+                path = path.display(),
+                error = error
             )),
         }
     }
@@ -62,8 +64,13 @@ pub(super) fn write(folder: &Path, entry: &Entry, png: Option<&[u8]>) -> Result<
 /// Writes a file, whole or not at all, with the folder that it needs.
 pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), String> {
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder)
-            .map_err(|error| format!("can't make the folder {}: {error}", folder.display()))?;
+        fs::create_dir_all(folder).map_err(|error| {
+            say!(
+                "notebook.cant_make_the_folder",
+                folder = folder.display(),
+                error = error
+            )
+        })?;
     }
     write_atomic(path, bytes).map_err(|error| error.to_string())
 }

@@ -16,6 +16,7 @@ use lightbench::render::description::Slice;
 use lightbench::render::readback::Reading;
 
 use super::Workbench;
+use crate::ui::messages::say;
 
 pub use self::entry::{Difference, Entry};
 
@@ -99,11 +100,9 @@ impl Notebook {
 impl Workbench {
     fn notebook_folder(&self) -> Result<PathBuf, String> {
         let project = self.files.project();
-        project.map(|project| project.join(NOTEBOOK)).ok_or_else(|| {
-            "The notebook lies in a project, and none is open: make one with `lightbench new project DIR`, \
-             and start the editor there. Until then entries are in memory alone."
-                .to_owned()
-        })
+        project
+            .map(|project| project.join(NOTEBOOK))
+            .ok_or_else(|| say!("notebook.the_notebook_lies_in_a_project").to_owned())
     }
 
     /// Reads the notebook, unless it is known.
@@ -129,7 +128,7 @@ impl Workbench {
         match task {
             Ok(task) => self.notebook.tasks.push(task),
             Err(error) => {
-                let text = format!("No thread for the notebook: {error}");
+                let text = say!("notebook.no_thread_for_the_notebook", error = error);
                 self.notebook.said = Some(Err(text));
             }
         }
@@ -142,14 +141,14 @@ impl Workbench {
     pub fn keep(&mut self, note: &str) -> Result<(), String> {
         self.open_notebook();
         if self.notebook.coming.is_some() {
-            return Err("The entry before is still being made.".to_owned());
+            return Err(say!("notebook.the_entry_before_is_still_being").to_owned());
         }
         let Some(view) = self.viewpoint() else {
-            return Err("There is no picture yet.".to_owned());
+            return Err(say!("notebook.there_is_no_picture_yet").to_owned());
         };
         let picture = self.shown_picture();
         let Some(picture) = picture else {
-            return Err("There is no picture yet.".to_owned());
+            return Err(say!("notebook.there_is_no_picture_yet").to_owned());
         };
         let now = jiff::Timestamp::now();
         let name = now.strftime("%Y-%m-%dT%H-%M-%SZ").to_string();
@@ -225,7 +224,10 @@ impl Workbench {
         let bytes = match reading.bytes() {
             Ok(bytes) => bytes,
             Err(error) => {
-                self.notebook.said = Some(Err(format!("The picture was not kept: {error}")));
+                self.notebook.said = Some(Err(say!(
+                    "notebook.the_picture_was_not_kept",
+                    error = error
+                )));
                 return;
             }
         };
@@ -257,11 +259,13 @@ impl Workbench {
         self.notebook.said = Some(match &kept.unsaved {
             None => {
                 kept.png = None;
-                Ok(format!("Kept as {NOTEBOOK}/{}.json.", kept.entry.name))
+                Ok(say!(
+                    "notebook.kept_as_json",
+                    notebook = NOTEBOOK,
+                    name = kept.entry.name
+                ))
             }
-            Some(why) => Err(format!(
-                "The entry is in memory alone, until the editor is closed: {why}"
-            )),
+            Some(why) => Err(say!("notebook.the_entry_is_in_memory_alone", why = why)),
         });
         self.notebook.add(kept);
     }
@@ -293,11 +297,10 @@ impl Workbench {
         note.clone_into(&mut kept.entry.note);
         let written = folder.and_then(|folder| disk::write(&folder, &kept.entry, kept.png()));
         kept.unsaved = written.err();
-        self.notebook.said = kept.unsaved.clone().map(|why| {
-            Err(format!(
-                "The note is in memory alone, until the editor is closed: {why}"
-            ))
-        });
+        self.notebook.said = kept
+            .unsaved
+            .clone()
+            .map(|why| Err(say!("notebook.the_note_is_in_memory_alone", why = why)));
     }
 
     /// Deletes an entry with its picture.
@@ -308,11 +311,15 @@ impl Workbench {
         let only_here = kept.is_some_and(|kept| kept.png.is_some());
         match result {
             Err(why) if !only_here => {
-                self.notebook.said = Some(Err(format!("{name} was not deleted: {why}")));
+                self.notebook.said = Some(Err(say!(
+                    "notebook.was_not_deleted",
+                    name = name,
+                    why = why
+                )));
             }
             _ => {
                 self.notebook.entries.retain(|k| k.entry.name != name);
-                self.notebook.said = Some(Ok(format!("{name} was deleted.")));
+                self.notebook.said = Some(Ok(say!("notebook.was_deleted", name = name)));
             }
         }
     }
@@ -324,11 +331,17 @@ impl Workbench {
     pub fn restore(&mut self, name: &str) -> Result<(), String> {
         let found = self.notebook.entries.iter().find(|k| k.entry.name == name);
         let Some(entry) = found.map(|kept| kept.entry.clone()) else {
-            return Err(format!("There is no entry {name} any more."));
+            return Err(say!("notebook.there_is_no_entry_any_more", name = name));
         };
         let read = |text: &str| {
             let view = text.parse::<crate::viewpoint::Viewpoint>();
-            view.map_err(|error| format!("The view of {name} can't be read: {error}"))
+            view.map_err(|error| {
+                say!(
+                    "notebook.the_view_of_cant_be_read",
+                    name = name,
+                    error = error
+                )
+            })
         };
         let view = read(&entry.view)?;
         let other = entry.view_b.as_deref().map(read).transpose()?;
