@@ -10,6 +10,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use lightbench::lab::lesson::{Language, Outcome, find_lesson, lesson_of, read_answers};
+use lightbench_editor::ui::actions::Action;
 use lightbench_editor::ui::layout::Panel;
 use lightbench_editor::ui::lesson::Page;
 use tempfile::TempDir;
@@ -340,6 +341,28 @@ fn answers_are_typed_and_written() {
         let open = editor.lessons.open.as_ref().unwrap();
         open.typed["passes"].value == "3.5"
     });
+}
+
+#[test]
+fn the_gallery_and_the_menu_open_lessons() {
+    let mut bench = Bench::open();
+    let ctx = bench.harness.ctx.clone();
+    bench.harness.state_mut().perform(Action::Gallery, &ctx);
+    bench.harness.run_steps(3);
+    bench.press("Lessons");
+    shot(&mut bench, "gallery.png");
+    bench.press("Linear light");
+    let name = |bench: &Bench| {
+        let open = bench.harness.state().lessons.open.as_ref();
+        open.map(|open| open.lesson.name.clone())
+    };
+    assert_eq!(name(&bench).as_deref(), Some("11-linear-light"));
+    assert!(!bench.harness.state().gallery.is_open);
+    bench.press("All lessons");
+    assert_eq!(name(&bench), None);
+    bench.harness.state_mut().perform(Action::CheckLesson, &ctx);
+    bench.harness.run_steps(3);
+    assert_eq!(bench.count("open a lesson and begin it first"), 1);
 }
 
 /// A letter that the fonts do not have would end the test.

@@ -46,6 +46,8 @@ pub struct Listed {
     pub title: Result<Words, String>,
     /// The points that it gives.
     pub points: u32,
+    /// The lesson, if nothing is wrong with it.
+    pub lesson: Option<Lesson>,
 }
 
 /// What is typed to begin a lesson.
@@ -345,13 +347,15 @@ fn listed(files: &Files, name: String) -> Listed {
     match find_lesson(files, &name) {
         Ok(lesson) => Listed {
             points: lesson.about.points(),
-            title: Ok(lesson.about.title),
+            title: Ok(lesson.about.title.clone()),
             name,
+            lesson: Some(lesson),
         },
         Err(problems) => Listed {
             name,
             title: Err(problems.to_string()),
             points: 0,
+            lesson: None,
         },
     }
 }

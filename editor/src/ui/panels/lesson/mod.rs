@@ -1,6 +1,7 @@
 //! A lesson beside the picture: its text, its tasks with what a check found, and parameters.
 
 mod begin;
+pub mod shelf;
 mod tasks;
 mod text;
 
