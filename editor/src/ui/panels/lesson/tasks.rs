@@ -99,16 +99,16 @@ fn one(task: &Task, outcome: Option<&TaskOutcome>, ui: &mut Ui, given: &mut Give
     }
 }
 
-fn refused(refusal: &Refusal, shown: &str, ui: &mut Ui, given: &mut Given) {
+fn refused(refusal: &Refusal, known: &str, ui: &mut Ui, given: &mut Given) {
     let error = Palette::of(ui).error;
     let text = given.words(&refusal.says);
     ui.label(shown(ui, text, BODY, |text| text.color(error)));
-    if let Some(place) = refusal.read.as_deref().filter(|place| *place != shown) {
+    if let Some(place) = refusal.read.as_deref().filter(|place| *place != known) {
         read(place, ui, given);
     }
 }
 
-fn criterion(judged: &CriterionOutcome, shown: &str, ui: &mut Ui, given: &mut Given) {
+fn criterion(judged: &CriterionOutcome, known: &str, ui: &mut Ui, given: &mut Given) {
     let error = Palette::of(ui).error;
     let (state, color) = match judged.state {
         State::Passed => (
@@ -139,11 +139,11 @@ fn criterion(judged: &CriterionOutcome, shown: &str, ui: &mut Ui, given: &mut Gi
     let told = judged.findings.iter().find(|finding| !finding.holds);
     let told = told.or_else(|| judged.findings.iter().find(|finding| finding.near));
     if let Some(told) = told {
-        ui.indent("finding", |ui| finding(told, shown, ui, given));
+        ui.indent("finding", |ui| finding(told, known, ui, given));
     }
 }
 
-fn finding(finding: &Finding, shown: &str, ui: &mut Ui, given: &mut Given) {
+fn finding(finding: &Finding, known: &str, ui: &mut Ui, given: &mut Given) {
     if let Some(cause) = &finding.cause {
         let cause = given.words(cause);
         ui.label(shown(ui, cause, BODY, RichText::strong));
@@ -175,7 +175,7 @@ fn finding(finding: &Finding, shown: &str, ui: &mut Ui, given: &mut Given) {
         }
     }
     pictures(finding, ui, given);
-    if let Some(place) = finding.read.as_deref().filter(|place| *place != shown) {
+    if let Some(place) = finding.read.as_deref().filter(|place| *place != known) {
         read(place, ui, given);
     }
 }
