@@ -42,7 +42,7 @@ fn click(bench: &mut Bench, role: Role, label: &str) {
             .scroll_to_me();
     };
     found(bench);
-    bench.harness.run_steps(4);
+    bench.harness.run_steps(8);
     let mut all = bench.harness.query_all_by_role_and_label(role, label);
     all.next().unwrap().click();
     drop(all);
@@ -233,6 +233,9 @@ fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     assert!(!larger(&bench));
     click(&mut bench, Role::Link, "Read #lambert");
     assert_eq!(bench.harness.state().lessons.page, Page::Text);
+    // The text glides there.
+    bench.harness.run_steps(8);
+    shot(&mut bench, "text.png");
     let heading = bench
         .harness
         .get_by_role_and_label(Role::Label, "A matt surface")

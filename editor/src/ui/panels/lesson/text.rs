@@ -1,6 +1,6 @@
 //! The text of a lesson as widgets.
 
-use egui::{Align, Frame, Image, RichText, ScrollArea, TextStyle, Ui, WidgetText};
+use egui::{Align, Frame, Image, RichText, TextStyle, Ui, WidgetText};
 use lightbench::lab::lesson::{Block, Piece, Run};
 
 use super::{Given, Wish};
@@ -91,19 +91,17 @@ impl Text<'_, '_> {
             Block::Table(rows) => {
                 let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
                 let grid = egui::Grid::new("table").striped(true).num_columns(columns);
-                ScrollArea::horizontal().show(ui, |ui| {
-                    grid.show(ui, |ui| {
-                        for (index, row) in rows.iter().enumerate() {
-                            for cell in row {
-                                // Cells are as wide as what is in them.
-                                ui.horizontal(|ui| {
-                                    ui.spacing_mut().item_spacing.x = 0.0;
-                                    self.line(cell, (index == 0).then_some(13.0), ui);
-                                });
-                            }
-                            ui.end_row();
+                grid.show(ui, |ui| {
+                    for (index, row) in rows.iter().enumerate() {
+                        for cell in row {
+                            // Cells are as wide as what is in them.
+                            ui.horizontal(|ui| {
+                                ui.spacing_mut().item_spacing.x = 0.0;
+                                self.line(cell, (index == 0).then_some(BODY), ui);
+                            });
                         }
-                    });
+                        ui.end_row();
+                    }
                 });
                 ui.add_space(4.0);
             }
@@ -180,7 +178,8 @@ impl Text<'_, '_> {
                 _ => Language::Other,
             };
             let job = listing(language, text.trim_end(), ui.visuals().dark_mode);
-            ScrollArea::horizontal().show(ui, |ui| ui.add(egui::Label::new(job).extend()));
+            // An area of its own to scroll would keep places and links from being scrolled to.
+            ui.add(egui::Label::new(job).wrap());
         });
         ui.add_space(6.0);
     }
@@ -189,11 +188,9 @@ impl Text<'_, '_> {
         ui.add_space(2.0);
         match self.load(path, ui) {
             Ok(picture) if picture.is_formula => {
-                ScrollArea::horizontal().show(ui, |ui| {
-                    ui.horizontal(|ui| {
-                        ui.add_space(16.0);
-                        ui.add(image(&picture, alt, ui));
-                    });
+                ui.horizontal(|ui| {
+                    ui.add_space(16.0);
+                    ui.add(image(&picture, alt, ui));
                 });
             }
             Ok(picture) => {
@@ -233,16 +230,14 @@ fn no_picture(why: &str, alt: &str, ui: &mut Ui) {
 /// A picture no wider than the panel; a formula in the colour of the text, as large as its letters.
 fn image(shown: &Shown, alt: &str, ui: &Ui) -> Image<'static> {
     let image = Image::new(&shown.texture).alt_text(alt);
+    let fits = (ui.available_width() / shown.size.x).min(1.0);
     match shown.is_formula {
         true => {
             let body = ui.text_style_height(&TextStyle::Body) / 1.15;
             image
-                .fit_to_exact_size(shown.size * (body / FORMULA_TEXT))
+                .fit_to_exact_size(shown.size * (body / FORMULA_TEXT).min(fits))
                 .tint(ui.visuals().strong_text_color())
         }
-        false => {
-            let scale = (ui.available_width() / shown.size.x).min(1.0);
-            image.fit_to_exact_size(shown.size * scale)
-        }
+        false => image.fit_to_exact_size(shown.size * fits),
     }
 }
