@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments, mut files: Files, limits: Option<&Path>) -> an
     })?;
     let begun = files.project().and_then(lesson_of);
     // A lesson with mistakes is told in the window.
-    let lesson = begun.and_then(|begun| find_lesson(&files, &begun.name).ok());
+    let lesson = begun.and_then(|begun| find_lesson(&files, begun.asked()).ok());
     let of_lesson = |name: fn(&About) -> &String, or: &str| {
         let named = lesson.as_ref().map(|lesson| name(&lesson.about).clone());
         named.unwrap_or_else(|| or.to_owned())

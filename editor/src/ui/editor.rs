@@ -82,7 +82,12 @@ pub struct Editor {
     opened: Option<PathBuf>,
     /// The swap of scenes that is kept among those of late.
     remembered: u64,
+    /// Whether the window's context has what was chosen for it.
+    is_dressed: bool,
 }
+
+/// How much larger text gets at once.
+const LARGER: f32 = 1.1;
 
 impl Editor {
     /// An editor whose widgets are drawn by `painter` on the workbench's device.
@@ -133,6 +138,7 @@ impl Editor {
             was_focused: true,
             opened: None,
             remembered: 0,
+            is_dressed: false,
         }
     }
 
@@ -140,6 +146,7 @@ impl Editor {
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
+        self.is_dressed = false;
         self.workbench.move_to(gpu);
     }
 
@@ -153,6 +160,16 @@ impl Editor {
         layout::set_visible(&mut self.layout, panel, true);
     }
 
+    /// Puts the panels into another order.
+    pub fn lay_out(&mut self, layout: Tree<Panel>) {
+        self.layout = layout;
+    }
+
+    /// Where a panel was drawn in the last frame, in points; `None` where it is not shown.
+    pub fn rect_of(&self, panel: Panel) -> Option<egui::Rect> {
+        layout::rect(&self.layout, panel)
+    }
+
     /// Whether somebody asked to close the window.
     pub fn wants_to_quit(&self) -> bool {
         self.quit
@@ -163,6 +180,7 @@ impl Editor {
         let now = Instant::now();
         self.workbench.tick(now);
         let ctx = ui.ctx().clone();
+        self.dress(&ctx);
         self.tend_code(now, ctx.input(|input| input.focused));
         self.tend_lessons();
         panels::code::keys(self, &ctx);
@@ -264,7 +282,12 @@ impl Editor {
                     egui::Theme::Dark
                 };
                 ctx.set_theme(other);
+                let kept = self.kept.choose_dark(!dark);
+                self.tell_if_not_kept(kept);
             }
+            Action::LargerText => self.scale_text(Some(LARGER), ctx),
+            Action::SmallerText => self.scale_text(Some(1.0 / LARGER), ctx),
+            Action::UsualText => self.scale_text(None, ctx),
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
             Action::EditScene => self.edit_scene(),
@@ -345,6 +368,38 @@ impl Editor {
         {
             self.workbench.log.warn(error);
         }
+    }
+
+    /// Makes text and widgets larger or smaller, or as large as the system says.
+    fn scale_text(&mut self, factor: Option<f32>, ctx: &egui::Context) {
+        let kept = match factor {
+            Some(factor) => self.kept.scale_by(factor),
+            None => self.kept.reset_scale(),
+        };
+        self.tell_if_not_kept(kept);
+        ctx.set_zoom_factor(self.kept.scale);
+    }
+
+    fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
+        if let Err(error) = kept {
+            self.workbench.log.warn(error);
+        }
+    }
+
+    /// Gives a context that is new what somebody chose: a dark window or a light one, and how large text is.
+    fn dress(&mut self, ctx: &egui::Context) {
+        if std::mem::replace(&mut self.is_dressed, true) {
+            return;
+        }
+        if let Some(dark) = self.kept.dark {
+            ctx.set_theme(match dark {
+                true => egui::Theme::Dark,
+                false => egui::Theme::Light,
+            });
+        }
+        // The editor has keys of its own for it, whose choice is kept.
+        ctx.options_mut(|options| options.zoom_with_keyboard = false);
+        ctx.set_zoom_factor(self.kept.scale);
     }
 
     fn select_beside(&mut self, by: isize) {

@@ -15,6 +15,9 @@ const MOST_LINES: usize = 200;
 /// Scenes that are kept.
 const MOST_SCENES: usize = 8;
 
+/// The least and the greatest size of text and widgets.
+const SCALES: (f32, f32) = (0.6, 3.0);
+
 /// What is kept of lessons.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct KeptLessons {
@@ -27,7 +30,7 @@ pub struct KeptLessons {
 }
 
 /// What is kept, and where.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Kept {
     path: Option<PathBuf>,
     /// Whether there was no file yet: the editor starts for the first time.
@@ -40,6 +43,10 @@ pub struct Kept {
     pub favourites: BTreeMap<usize, String>,
     /// What is kept of lessons.
     pub lessons: KeptLessons,
+    /// Whether the window is dark, where somebody chose that.
+    pub dark: Option<bool>,
+    /// How large text and widgets are, to what the system says: 1 as it says.
+    pub scale: f32,
     /// What other versions of the program have written.
     others: Map<String, Value>,
 }
@@ -103,7 +110,11 @@ impl Kept {
             }
             _ => KeptLessons::default(),
         };
+        let dark = others.remove("dark").and_then(|dark| dark.as_bool());
+        let scale = others.remove("scale").and_then(|scale| scale.as_f64());
         Self {
+            dark,
+            scale: (scale.unwrap_or(1.0) as f32).clamp(SCALES.0, SCALES.1),
             is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
@@ -169,6 +180,33 @@ impl Kept {
         self.write()
     }
 
+    /// Keeps whether the window is dark.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The choice is there until the program ends.
+    pub fn choose_dark(&mut self, dark: bool) -> Result<(), String> {
+        self.dark = Some(dark);
+        self.write()
+    }
+
+    /// Makes text and widgets larger by a factor, or smaller, within bounds.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The size is there until the program ends.
+    pub fn scale_by(&mut self, factor: f32) -> Result<(), String> {
+        self.scale = (self.scale * factor).clamp(SCALES.0, SCALES.1);
+        self.write()
+    }
+
+    /// Gives text and widgets the size that the system says.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written.
+    pub fn reset_scale(&mut self) -> Result<(), String> {
+        self.scale = 1.0;
+        self.write()
+    }
+
     fn write(&self) -> Result<(), String> {
         let Some(path) = &self.path else {
             return Ok(());
@@ -176,6 +214,12 @@ impl Kept {
         let mut all = self.others.clone();
         all.insert("console".to_owned(), self.console.clone().into());
         all.insert("scenes".to_owned(), self.scenes.clone().into());
+        if let Some(dark) = self.dark {
+            all.insert("dark".to_owned(), dark.into());
+        }
+        // As text has it: 1.1 and not 1.10000002384.
+        let scale = (f64::from(self.scale) * 1000.0).round() / 1000.0;
+        all.insert("scale".to_owned(), scale.into());
         if !self.favourites.is_empty() {
             let favourites = self.favourites.iter();
             let favourites = favourites.map(|(key, name)| (key.to_string(), name.clone().into()));

@@ -44,6 +44,27 @@ pub enum Panel {
 }
 
 impl Panel {
+    /// All of them.
+    pub const ALL: [Self; 17] = [
+        Self::Viewport,
+        Self::Targets,
+        Self::Pixel,
+        Self::Passes,
+        Self::Pipeline,
+        Self::Pipelines,
+        Self::Scene,
+        Self::Entities,
+        Self::Log,
+        Self::Console,
+        Self::Actions,
+        Self::Plots,
+        Self::History,
+        Self::Compare,
+        Self::Notebook,
+        Self::Code,
+        Self::Lesson,
+    ];
+
     /// The words on its tab.
     pub fn title(self) -> &'static str {
         match self {
@@ -117,6 +138,32 @@ pub fn first() -> Tree<Panel> {
     set_visible(&mut tree, Panel::Lesson, false);
     set_visible(&mut tree, Panel::Code, false);
     tree
+}
+
+/// All panels at once, beside each other, so that none hides another.
+pub fn all() -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let panes = Panel::ALL.map(|panel| tiles.insert_pane(panel));
+    let root = tiles.insert_grid_tile(panes.to_vec());
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// The picture at the left and one panel at its right.
+pub fn beside(panel: Panel) -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let picture = tiles.insert_pane(Panel::Viewport);
+    let pane = tiles.insert_pane(panel);
+    let root = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(picture, 0.5), (pane, 0.5)],
+    );
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// Where a panel was drawn in the last frame, in points.
+pub fn rect(tree: &Tree<Panel>, panel: Panel) -> Option<egui::Rect> {
+    tree.tiles.rect(tree.tiles.find_pane(&panel)?)
 }
 
 fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {

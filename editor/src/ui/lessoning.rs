@@ -52,7 +52,7 @@ impl Editor {
                 Language::English => String::new(),
                 other => other.code().to_owned(),
             },
-            open: open.map_or(String::new(), |open| open.lesson.name.clone()),
+            open: open.map_or(String::new(), |open| open.asked.clone()),
             student: self.kept.lessons.student.clone(),
         };
         if let Err(error) = self.kept.remember_lessons(now) {
@@ -121,12 +121,11 @@ impl Editor {
             .open
             .as_ref()
             .filter(|open| open.begun.is_some());
-        let (Some(open), Some(project)) = (begun, project) else {
+        let (Some(_), Some(project)) = (begun, project) else {
             self.lessons.checking.why_not = Some(say!("lesson.nothing_to_check").to_owned());
             return;
         };
         let order = Order {
-            lesson: open.lesson.name.clone(),
             project,
             language: self.lessons.language,
             gpu: self.workbench.gpu_options().clone(),

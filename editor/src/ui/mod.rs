@@ -16,6 +16,7 @@ pub mod layout;
 pub mod lens;
 pub mod lesson;
 mod lessoning;
+pub mod menus;
 pub(crate) mod messages;
 mod panels;
 mod screen;

@@ -4,6 +4,7 @@
 
 mod figures;
 mod formulas;
+mod mutants;
 mod texts;
 mod variants;
 

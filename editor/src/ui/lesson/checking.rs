@@ -27,9 +27,7 @@ const PICTURES: [&str; 3] = ["-expected.png", "-yours.png", "-difference.png"];
 /// What a check needs to know.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// The lesson, by its name.
-    pub lesson: String,
-    /// The project.
+    /// The project, which says of which lesson it is.
     pub project: PathBuf,
     /// The language of its messages.
     pub language: Language,
@@ -133,7 +131,7 @@ fn start(order: &Order, out: &Path) -> Result<Child, String> {
     if let Some(limits) = &order.worker.limits {
         arguments.extend(["--limits".into(), limits.into()]);
     }
-    arguments.extend(["check".into(), order.lesson.as_str().into()]);
+    arguments.push("check".into());
     arguments.extend(["--work".into(), order.project.as_path().into()]);
     arguments.extend(["--language".into(), order.language.code().into()]);
     arguments.extend(["--pictures".into(), out.into()]);

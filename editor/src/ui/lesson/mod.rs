@@ -74,6 +74,8 @@ pub struct Typed {
 pub struct Open {
     /// The lesson.
     pub lesson: Lesson,
+    /// What it was found by: its name, or its folder.
+    pub asked: String,
     /// What the project says, if it was begun from this lesson.
     pub begun: Option<LessonOf>,
     /// The text.
@@ -155,6 +157,7 @@ impl Lessons {
             typed: BTreeMap::new(),
             answered: None,
             reports: Vec::new(),
+            asked: name.to_owned(),
             lesson,
             begun,
         };
@@ -200,8 +203,8 @@ impl Lessons {
         self.checking.forget();
         let begun = files.project().and_then(lesson_of);
         // What was open may be begun now, or no longer.
-        let name = begun.as_ref().map(|begun| begun.name.clone());
-        let name = name.or_else(|| Some(self.open.as_ref()?.lesson.name.clone()));
+        let name = begun.as_ref().map(|begun| begun.asked().to_owned());
+        let name = name.or_else(|| Some(self.open.as_ref()?.asked.clone()));
         if let Some(name) = name {
             self.open(files, &name);
         }
@@ -215,7 +218,7 @@ impl Lessons {
         };
         if is_ours("lessons/") {
             self.list = None;
-            if let Some(name) = self.open.as_ref().map(|open| open.lesson.name.clone()) {
+            if let Some(name) = self.open.as_ref().map(|open| open.asked.clone()) {
                 self.open(files, &name);
             }
         }

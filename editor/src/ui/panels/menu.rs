@@ -2,9 +2,10 @@
 
 use egui::{Button, MenuBar, Ui};
 
-use crate::ui::actions::{Action, MENUS, key_text};
+use crate::ui::actions::{Action, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
+use crate::ui::menus::MENUS;
 use crate::ui::messages::say;
 use crate::ui::messages::{message, text};
 use crate::ui::panels::palette::scene_title;

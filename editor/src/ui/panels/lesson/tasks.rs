@@ -309,18 +309,17 @@ fn answer(open: &mut Open, question: &Question, ui: &mut Ui, given: &mut Given) 
         ui.add(field).labelled_by(label.id);
         if !reports.is_empty() {
             let choose = given.say(message!("lesson.reports"), message!("lesson.reports_es"));
-            ComboBox::from_id_salt("reports")
-                .selected_text(choose)
-                .show_ui(ui, |ui| {
-                    for report in &reports {
-                        if ui
-                            .selectable_label(typed.report == *report, report)
-                            .clicked()
-                        {
-                            typed.report.clone_from(report);
-                        }
+            let combo = ComboBox::from_id_salt("reports").selected_text(choose);
+            let combo = combo.show_ui(ui, |ui| {
+                for report in &reports {
+                    let chosen = typed.report == *report;
+                    if ui.selectable_label(chosen, report).clicked() {
+                        typed.report.clone_from(report);
                     }
-                });
+                }
+            });
+            let name = || egui::WidgetInfo::labeled(egui::Role::ComboBox, true, choose);
+            combo.response.widget_info(name);
         }
         let write = given.say(message!("lesson.write"), message!("lesson.write_es"));
         let can = !typed.value.trim().is_empty() && !typed.report.trim().is_empty();
