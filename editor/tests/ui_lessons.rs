@@ -34,18 +34,14 @@ fn solve(project: &Path) {
 
 /// Clicks the first widget of a role with that name, after scrolling to it.
 fn click(bench: &mut Bench, role: Role, label: &str) {
-    let found = |bench: &Bench| {
+    let first = |bench: &Bench, act: fn(&egui_kittest::Node)| {
         let mut all = bench.harness.query_all_by_role_and_label(role, label);
-        let first = all.next();
-        first
-            .unwrap_or_else(|| panic!("nothing is called {label}"))
-            .scroll_to_me();
+        let node = all.next();
+        act(&node.unwrap_or_else(|| panic!("nothing is called {label}")));
     };
-    found(bench);
+    first(bench, |node| node.scroll_to_me());
     bench.harness.run_steps(8);
-    let mut all = bench.harness.query_all_by_role_and_label(role, label);
-    all.next().unwrap().click();
-    drop(all);
+    first(bench, |node| node.click());
     bench.harness.run_steps(3);
 }
 
@@ -86,18 +82,6 @@ fn check(bench: &mut Bench) -> Outcome {
     outcome(bench)
 }
 
-fn shot(bench: &mut Bench, name: &str) {
-    if let Some(folder) = std::env::var_os("SHOTS") {
-        bench.harness.run_steps(3);
-        bench
-            .harness
-            .render()
-            .unwrap()
-            .save(Path::new(&folder).join(name))
-            .unwrap();
-    }
-}
-
 #[test]
 fn a_lesson_is_begun_checked_solved_and_checked_again() {
     let settings = TempDir::new().unwrap();
@@ -116,7 +100,6 @@ fn a_lesson_is_begun_checked_solved_and_checked_again() {
         0
     );
 
-    shot(&mut bench, "begin.png");
     // A folder with something in it is refused, and told.
     let place = TempDir::new().unwrap();
     fs::write(place.path().join("mine.txt"), "mine").unwrap();
@@ -184,7 +167,7 @@ fn fill_again(bench: &mut Bench, folder: &Path) {
 #[test]
 fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     let mut bench = begun(None, None);
-    assert_eq!(bench.count("First light") > 0, true);
+    assert!(bench.count("First light") > 0);
     solve(bench.path());
     // One factor is missing: the highlight is drawn without the light that arrives.
     let path = bench.path().join(FORMULAS);
@@ -197,7 +180,6 @@ fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     assert_eq!(matt.points, 0);
     let finding = matt.findings.iter().find(|finding| !finding.holds).unwrap();
     assert_eq!(finding.pictures.len(), 3, "expected, yours, difference");
-    shot(&mut bench, "results.png");
     // All is explained: the cause, the numbers, three pictures beside each other.
     let cause = &finding.cause.as_ref().unwrap().en;
     assert!(bench.count(cause) >= 1, "{cause}");
@@ -228,14 +210,12 @@ fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     };
     click(&mut bench, Role::Button, &finding.pictures[1].1.en);
     assert!(larger(&bench));
-    shot(&mut bench, "larger.png");
     bench.press("Close");
     assert!(!larger(&bench));
     click(&mut bench, Role::Link, "Read #lambert");
     assert_eq!(bench.harness.state().lessons.page, Page::Text);
     // The text glides there.
     bench.harness.run_steps(8);
-    shot(&mut bench, "text.png");
     let heading = bench
         .harness
         .get_by_role_and_label(Role::Label, "A matt surface")
@@ -353,7 +333,6 @@ fn the_gallery_and_the_menu_open_lessons() {
     bench.harness.state_mut().perform(Action::Gallery, &ctx);
     bench.harness.run_steps(3);
     bench.press("Lessons");
-    shot(&mut bench, "gallery.png");
     bench.press("Linear light");
     let name = |bench: &Bench| {
         let open = bench.harness.state().lessons.open.as_ref();

@@ -134,7 +134,9 @@ fn formulas_are_what_their_sources_say() {
             assert_eq!(used, known, "{}: {}", lesson.name, text.file);
         }
     }
-    assert!(count >= 10, "{count}");
+    // Of one lesson there may be none.
+    let all_lessons = std::env::var_os("LIGHTBENCH_LESSON").is_none();
+    assert!(count >= 10 || !all_lessons, "{count}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The tasks of a lesson with what the last check found, explained with pictures, and its questions.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use egui::{Color32, ComboBox, Context, Id, Image, Modal, RichText, TextEdit, Ui};
 use lightbench::lab::lesson::{
@@ -204,7 +204,7 @@ fn pictures(finding: &Finding, ui: &mut Ui, given: &mut Given) {
     });
 }
 
-fn picture(file: &PathBuf, alt: &str, width: f32, ui: &mut Ui, given: &mut Given) {
+fn picture(file: &Path, alt: &str, width: f32, ui: &mut Ui, given: &mut Given) {
     match given.panel.pictures.of_file(ui.ctx(), file) {
         Ok(drawn) => {
             let size = drawn.size * (width / drawn.size.x);
@@ -213,7 +213,7 @@ fn picture(file: &PathBuf, alt: &str, width: f32, ui: &mut Ui, given: &mut Given
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, alt));
             let about = given.say(message!("lesson.larger"), message!("lesson.larger_es"));
             if button.on_hover_text(about).clicked() {
-                given.panel.large = Some((file.clone(), alt.to_owned()));
+                given.panel.large = Some((file.to_owned(), alt.to_owned()));
             }
         }
         Err(why) => {
