@@ -33,7 +33,7 @@ for i in 0..{entities} {{
     if i % 16 == 0 {{
         point_light(`lamp ${{i}}`).at(x, 1.0, z).range(2).intensity(1);
     }} else {{
-        spawn(`box ${{i}}`).mesh(cuboid(0.2, 0.2, 0.2)).at(x, 0.1, z);
+        spawn(`box ${{i}}`).mesh(box(0.2)).at(x, 0.1, z);
     }}
 }}
 camera(\"eye\").at(0, 4, 8).look_at(0, 0, -4).fov(50);
@@ -98,6 +98,9 @@ impl Window {
             || window.editor.workbench.library.is_busy()
         {
             window.frame();
+            if let Some(problem) = window.editor.workbench.problems().next() {
+                panic!("{problem}");
+            }
             assert!(began.elapsed() < Duration::from_secs(60), "no picture");
         }
         let workbench = &mut window.editor.workbench;

@@ -42,6 +42,10 @@ pub enum Action {
     Undo,
     /// Do again what was taken back.
     Redo,
+    /// Back to what was looked at before.
+    ViewBack,
+    /// Forth again.
+    ViewForth,
     /// Choose what handles do.
     Tool(Tool),
     /// Handles along the axes of the entity, or of the world.

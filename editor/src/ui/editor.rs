@@ -12,6 +12,7 @@ use super::actions::{self, Action};
 use super::code::Code;
 use super::dialogs::{Dialogs, Question};
 use super::gallery::Gallery;
+use super::keeping;
 use super::kept::Kept;
 use super::layout::{self, Panel};
 use super::lesson::Lessons;
@@ -26,6 +27,7 @@ use super::panels::plots::PlotsPanel;
 use super::panels::view_text::PasteWindow;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
+use super::recovery::Recovery;
 use super::screen::Screen;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
@@ -59,6 +61,10 @@ pub struct Editor {
     pub(super) paste: Option<PasteWindow>,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
+    /// What is kept so that a crash takes little.
+    pub recovery: Recovery,
+    /// Why what should be kept before the window closes is not.
+    pub(super) not_kept: Option<String>,
     /// The window that saves the scene, while it is open.
     pub(super) saving: Option<panels::saving::Saving>,
     /// What is drawn over the picture.
@@ -73,7 +79,7 @@ pub struct Editor {
     pub hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
-    quit: bool,
+    pub(super) quit: bool,
     /// Whether a widget had the keys in the last frame.
     pub(super) was_typing: bool,
     /// Whether the window had the keys in the last frame.
@@ -98,6 +104,8 @@ impl Editor {
     ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
         let code = Code::new(kept.unsaved_folder(), workbench.files());
+        let project = workbench.files().project();
+        let recovery = keeping::open_recovery(kept.recovery_folder(), project);
         let mut layout = layout::first();
         if !kept.lessons.open.is_empty() {
             layout::set_visible(&mut layout, Panel::Lesson, true);
@@ -126,6 +134,8 @@ impl Editor {
             paste: None,
             palette: None,
             saving: None,
+            recovery,
+            not_kept: None,
             marks: Marks::default(),
             kept,
             bring: None,
@@ -182,6 +192,7 @@ impl Editor {
         let ctx = ui.ctx().clone();
         self.dress(&ctx);
         self.tend_code(now, ctx.input(|input| input.focused));
+        self.tend_recovery(now);
         self.tend_lessons();
         panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
@@ -210,7 +221,8 @@ impl Editor {
         panels::gallery::show(self, &ctx);
         panels::palette::show(self, &ctx);
         panels::view_text::show(self, &ctx);
-        panels::code::leaving::show(self, &ctx);
+        panels::leaving::show(self, &ctx);
+        panels::recovery::show(self, &ctx);
         self.follow_dialogs(&ctx);
         panels::saving::show(self, &ctx);
         if let Some(panel) = self.revealed.take() {
@@ -220,13 +232,19 @@ impl Editor {
         self.take_dropped_files(&ctx);
         self.remember_scene();
 
-        let busy = ctx.input(|input| input.pointer.any_down());
+        let held = ctx.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.was_typing = ctx.egui_wants_keyboard_input();
-        if !busy && !self.was_typing {
+        self.workbench.note_dials();
+        self.workbench.note_view(now, held);
+        if !held && !self.was_typing {
             self.workbench.undo.seal();
         }
 
-        let due = [self.workbench.next_due(now), self.code.next_due(now)];
+        let due = [
+            self.workbench.next_due(now),
+            self.code.next_due(now),
+            self.recovery.next_due(now),
+        ];
         if let Some(due) = due.into_iter().flatten().min() {
             ctx.request_repaint_after(due);
         }
@@ -250,6 +268,8 @@ impl Editor {
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
             Action::Redo => _ = workbench.redo(),
+            Action::ViewBack => _ = workbench.view_back(),
+            Action::ViewForth => _ = workbench.view_forth(),
             Action::Tool(tool) => self.viewport.handles.tool = tool,
             Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
             // Out of the walk through the frame first.
@@ -337,11 +357,6 @@ impl Editor {
     /// The file that was brought last is none of the present project.
     pub(super) fn forget_opened_file(&mut self) {
         self.opened = None;
-    }
-
-    /// Closes the window in the next frame.
-    pub(super) fn quit(&mut self) {
-        self.quit = true;
     }
 
     /// Opens the files that were dropped onto the window.

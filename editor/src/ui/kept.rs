@@ -130,6 +130,11 @@ impl Kept {
         Some(self.path.as_ref()?.parent()?.join("unsaved"))
     }
 
+    /// The folder of what somebody works on, beside the file.
+    pub fn recovery_folder(&self) -> Option<PathBuf> {
+        Some(self.path.as_ref()?.parent()?.join("recovery"))
+    }
+
     /// Keeps a line of the console.
     ///
     /// # Errors

@@ -88,11 +88,11 @@ impl Editor {
             if let Err(error) = self.kept.remember_lessons(kept) {
                 self.workbench.log.warn(error);
             }
-            if self.code.unsaved().next().is_some() {
+            if self.has_something_to_lose() {
                 self.code.leaving = Some(Leaving::Project(project));
                 return Ok(());
             }
-            self.try_to_open_project(&project)
+            self.try_to_open_project(&project, false)
         });
         self.lessons.beginning.why_not = done.err();
     }

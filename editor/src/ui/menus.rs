@@ -113,6 +113,18 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
             ],
             &[
                 entry(
+                    Action::ViewBack,
+                    message!("action.view_back"),
+                    shifted(Key::Z),
+                ),
+                entry(
+                    Action::ViewForth,
+                    message!("action.view_forth"),
+                    shifted(Key::Y),
+                ),
+            ],
+            &[
+                entry(
                     Action::Tool(Tool::Move),
                     message!("action.move"),
                     key(Key::M),

@@ -70,9 +70,10 @@ impl Workbench {
     /// # Errors
     /// A sentence that says why it can't be. Then nothing has changed.
     pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
+        let chosen = self.names_chosen();
         let edit = self.do_edit(edit)?;
         let what = edit.words();
-        self.note_structure(what, vec![done(edit)]);
+        self.note_structure(what, vec![done(edit)], chosen);
         Ok(())
     }
 
@@ -171,6 +172,7 @@ impl Workbench {
                 places.push((entity, old, local));
             }
         }
+        let chosen = self.names_chosen();
         let edit = self.do_edit(Edit::Parent { of, to: to_who })?;
         let what = edit.words();
         let mut changes = vec![done(edit)];
@@ -198,7 +200,7 @@ impl Workbench {
                 }
             }
         }
-        self.note_structure(what, changes);
+        self.note_structure(what, changes, chosen);
         Ok(())
     }
 
@@ -315,6 +317,7 @@ impl Workbench {
             self.history.add("", edit.words(), Script::Scene, line);
         }
         self.canvas.invalidate();
+        self.absorb_view();
         Ok(edit)
     }
 
@@ -356,10 +359,18 @@ impl Workbench {
         }
     }
 
-    fn note_structure(&mut self, what: String, changes: Vec<Change>) {
+    fn note_structure(&mut self, what: String, changes: Vec<Change>, chosen: Vec<String>) {
         self.undo.seal();
-        self.undo.note(what, changes);
+        self.undo.note_with(what, changes, chosen);
         self.undo.seal();
+    }
+
+    /// The names of what is chosen, of those that have one.
+    fn names_chosen(&self) -> Vec<String> {
+        let chosen: Vec<Entity> = self.selection.entities().collect();
+        let mut names = self.names_of(&chosen);
+        names.retain(|name| !name.is_empty());
+        names
     }
 }
 

@@ -17,10 +17,12 @@ const SLICE: Duration = Duration::from_millis(12);
 
 /// The way to a view that was asked for.
 pub(super) struct Arriving {
-    camera: Eye,
-    steps: Steps,
+    pub(super) camera: Eye,
+    pub(super) steps: Steps,
     /// Whether its scene is on screen.
-    is_there: bool,
+    pub(super) is_there: bool,
+    /// Whether time runs on from there.
+    pub(super) then_plays: bool,
 }
 
 impl Workbench {
@@ -36,7 +38,21 @@ impl Workbench {
     }
 
     fn viewpoint_of(&self, pipelines: &Pipelines) -> Option<Viewpoint> {
-        let pipeline = pipelines.shown()?;
+        self.viewpoint_with(pipelines, pipelines.shown()?, self.viewport_size()?)
+    }
+
+    /// What there is to see, also where no picture of it can be drawn.
+    pub(super) fn view_to_keep(&self) -> Option<Viewpoint> {
+        let size = self.viewport_size().unwrap_or((640, 360));
+        self.viewpoint_with(&self.pipelines, self.pipelines.selected(), size)
+    }
+
+    fn viewpoint_with(
+        &self,
+        pipelines: &Pipelines,
+        pipeline: &str,
+        size: (u32, u32),
+    ) -> Option<Viewpoint> {
         let settings = pipelines.slot(pipeline).map(|slot| slot.settings.clone());
         let scene = self.scenes.shown()?;
         let scene_settings = self
@@ -50,7 +66,7 @@ impl Workbench {
             pipeline_settings: settings.unwrap_or_default(),
             camera: self.eye(),
             time: self.clock.time(),
-            size: self.viewport_size()?,
+            size,
         })
     }
 
@@ -68,7 +84,8 @@ impl Workbench {
         shown
     }
 
-    fn eye(&self) -> Eye {
+    /// From where the scene is seen.
+    pub(super) fn eye(&self) -> Eye {
         if let Some(flat) = self.camera.flat() {
             return Eye::Side(*flat);
         }
@@ -89,6 +106,11 @@ impl Workbench {
     /// # Errors
     /// A sentence, where the view names a file outside of the project that nobody has opened.
     pub fn go_to(&mut self, view: &Viewpoint) -> Result<(), String> {
+        let what = say!("history.view", scene = view.scene);
+        self.as_place("view", &what, true, |this| this.go_to_now(view))
+    }
+
+    fn go_to_now(&mut self, view: &Viewpoint) -> Result<(), String> {
         let scene = self.known(&view.scene)?;
         let pipeline = self.known(&view.pipeline)?;
         let mut settings = Settings::new();
@@ -109,6 +131,7 @@ impl Workbench {
             camera: view.camera.clone(),
             steps: Steps::to(view.time),
             is_there: false,
+            then_plays: false,
         });
         self.scenes.select(&scene, Some(settings));
         self.scenes.poll();
@@ -171,7 +194,8 @@ impl Workbench {
         while began.elapsed() < SLICE {
             let next = self.arriving.as_mut().and_then(|way| way.steps.next());
             let Some((time, step)) = next else {
-                self.arriving = None;
+                self.clock.playing = self.arriving.take().is_some_and(|way| way.then_plays);
+                self.absorb_view();
                 if let Some(left_out) = self.left_out_of_view() {
                     self.log.warn(left_out);
                 }

@@ -1,7 +1,6 @@
 //! Scripts and shaders, to be read and changed beside the picture.
 
 mod find;
-pub mod leaving;
 pub mod lines;
 mod list;
 mod notes;
