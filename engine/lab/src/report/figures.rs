@@ -110,11 +110,13 @@ fn curve(study: &Study, analyses: &[Analysis], line: &Line, name: &str, label: &
 /// # Errors
 /// [`LabError::Encode`] if the SVG is not well-formed or too large.
 pub(super) fn png(svg: &str) -> Result<Vec<u8>, LabError> {
-    let map = svg::render(svg, SHARPNESS, tiny_skia::Color::WHITE)?;
-    map.encode_png().map_err(|error| LabError::Encode {
+    let fail = |reason: String| LabError::Encode {
         format: "PNG of a chart",
-        reason: error.to_string(),
-    })
+        reason,
+    };
+    let map = svg::render(svg, SHARPNESS, tiny_skia::Color::WHITE);
+    let map = map.map_err(|error| fail(error.to_string()))?;
+    map.encode_png().map_err(|error| fail(error.to_string()))
 }
 
 #[cfg(test)]
