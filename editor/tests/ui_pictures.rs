@@ -133,6 +133,7 @@ fn fill(bench: &mut Bench, panel: Panel) {
             bench.harness.run_steps(4);
         }
         Panel::Code => bench.key(CTRL, Key::E),
+        Panel::Lesson => bench.harness.state_mut().open_lesson("1"),
         _ => {}
     }
 }

@@ -102,6 +102,10 @@ pub enum Action {
     OpenScene,
     /// Show scenes, pipelines and examples.
     Gallery,
+    /// Show the lesson that is open, or all of them.
+    Lessons,
+    /// Check the lesson.
+    CheckLesson,
     /// Say what to try first.
     Welcome,
     /// Text and widgets larger.

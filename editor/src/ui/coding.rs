@@ -178,6 +178,8 @@ impl Editor {
             let paths: Vec<String> = touched.paths.into_iter().collect();
             let changed = (!touched.everything).then_some(paths.as_slice());
             self.code.refresh(self.workbench.files(), changed);
+            self.lessons.changed(self.workbench.files(), changed);
+            self.lesson_panel.pictures.forget();
         }
         for error in self.code.note(now) {
             self.workbench.log.error(error);
@@ -193,7 +195,9 @@ impl Editor {
     pub(super) fn ask_for(&mut self, question: Question) {
         let project = self.workbench.files().project();
         let begin_at = match question {
-            Question::Project => project.and_then(Path::parent).map(Path::to_owned),
+            Question::Project | Question::Lesson => {
+                project.and_then(Path::parent).map(Path::to_owned)
+            }
             Question::Scene | Question::SaveScene => project
                 .map(|project| project.join(SCENES))
                 .filter(|folder| folder.is_dir()),
@@ -214,6 +218,10 @@ impl Editor {
             Question::Project => self.try_to_open_project(&path, false),
             Question::Scene => self.try_to_open_file(&path),
             Question::SaveScene => self.save_scene_to(&path),
+            Question::Lesson => {
+                self.lessons.beginning.folder = path.to_string_lossy().into_owned();
+                Ok(())
+            }
         };
         if let Err(why) = done {
             self.dialogs.refuse(question, &path, why);
@@ -228,7 +236,7 @@ impl Editor {
     }
 
     /// `keeps` leaves what was kept of the present project for when it is opened again.
-    fn try_to_open_project(&mut self, folder: &Path, keeps: bool) -> Result<(), String> {
+    pub(super) fn try_to_open_project(&mut self, folder: &Path, keeps: bool) -> Result<(), String> {
         let is_empty = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
         let folder: PathBuf = if is_empty || !folder.exists() {
             create_project(folder).map_err(|error| error.to_string())?
@@ -245,6 +253,7 @@ impl Editor {
         let root = self.kept.unsaved_folder();
         self.code.move_to(root, self.workbench.files());
         self.forget_opened_file();
+        self.show_scene_of_lesson();
         Ok(())
     }
 

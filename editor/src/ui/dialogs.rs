@@ -22,6 +22,8 @@ pub enum Question {
     Scene,
     /// Where to write the scene on screen.
     SaveScene,
+    /// Where to begin a lesson.
+    Lesson,
 }
 
 impl Question {
@@ -30,6 +32,7 @@ impl Question {
             Self::Project => say!("dialogs.open_a_project"),
             Self::Scene => say!("dialogs.open_a_scene"),
             Self::SaveScene => say!("dialogs.save_the_scene_as"),
+            Self::Lesson => say!("lesson.folder_title"),
         }
     }
 
@@ -42,6 +45,7 @@ impl Question {
                 say!("dialogs.a_script_rhai_a_saved_scene")
             }
             Self::SaveScene => say!("dialogs.the_file_to_write_it_ends"),
+            Self::Lesson => say!("lesson.folder_about"),
         }
     }
 }
@@ -108,7 +112,7 @@ impl Dialogs {
             dialog = dialog.set_directory(folder);
         }
         let answer: Answer = match question {
-            Question::Project => Box::pin(dialog.pick_folder()),
+            Question::Project | Question::Lesson => Box::pin(dialog.pick_folder()),
             Question::Scene => {
                 let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
                 Box::pin(

@@ -15,9 +15,11 @@ use super::gallery::Gallery;
 use super::keeping;
 use super::kept::Kept;
 use super::layout::{self, Panel};
+use super::lesson::Lessons;
 use super::panels::code::CodePanel;
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
+use super::panels::lesson::LessonPanel;
 use super::panels::marks::Marks;
 use super::panels::notebook::NotebookPanel;
 use super::panels::palette::Palette;
@@ -46,6 +48,9 @@ pub struct Editor {
     pub(super) code_panel: CodePanel,
     /// What there is to look at.
     pub gallery: Gallery,
+    /// Lessons, and the one that is open.
+    pub lessons: Lessons,
+    pub(super) lesson_panel: LessonPanel,
     /// Whether it is said what to try first.
     pub welcome: bool,
     /// Questions for files and folders.
@@ -102,6 +107,9 @@ impl Editor {
         let project = workbench.files().project();
         let recovery = keeping::open_recovery(kept.recovery_folder(), project);
         let mut layout = layout::first();
+        if !kept.lessons.open.is_empty() {
+            layout::set_visible(&mut layout, Panel::Lesson, true);
+        }
         if !code.offered.is_empty() {
             layout::set_visible(&mut layout, Panel::Code, true);
         }
@@ -110,6 +118,8 @@ impl Editor {
             code_panel: CodePanel::default(),
             dialogs: Dialogs::default(),
             gallery: Gallery::new(),
+            lessons: super::lessoning::kept_lessons(&kept, workbench.files()),
+            lesson_panel: LessonPanel::default(),
             welcome: kept.is_new,
             workbench,
             screen,
@@ -183,6 +193,7 @@ impl Editor {
         self.dress(&ctx);
         self.tend_code(now, ctx.input(|input| input.focused));
         self.tend_recovery(now);
+        self.tend_lessons();
         panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
 
@@ -311,6 +322,8 @@ impl Editor {
                 );
                 self.gallery.open(&files, &wake);
             }
+            Action::Lessons => self.reveal(Panel::Lesson),
+            Action::CheckLesson => self.check_lesson(),
             Action::Welcome => self.welcome = true,
             Action::Quit => self.ask_to_quit(),
         }
@@ -448,6 +461,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Compare => panels::compare::show(self.editor, ui),
             Panel::Notebook => panels::notebook::show(self.editor, ui),
             Panel::Code => panels::code::show(self.editor, ui),
+            Panel::Lesson => panels::lesson::show(self.editor, ui),
             Panel::Viewport => {}
         }
         UiResponse::None

@@ -18,6 +18,17 @@ const MOST_SCENES: usize = 8;
 /// The least and the greatest size of text and widgets.
 const SCALES: (f32, f32) = (0.6, 3.0);
 
+/// What is kept of lessons.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KeptLessons {
+    /// The language, by its code.
+    pub language: String,
+    /// The lesson that is open, by its name; may be empty.
+    pub open: String,
+    /// The student for whom one was begun last; may be empty.
+    pub student: String,
+}
+
 /// What is kept, and where.
 #[derive(Debug)]
 pub struct Kept {
@@ -30,6 +41,8 @@ pub struct Kept {
     pub scenes: Vec<String>,
     /// The pipelines of number keys from 1, where somebody gave a key to one.
     pub favourites: BTreeMap<usize, String>,
+    /// What is kept of lessons.
+    pub lessons: KeptLessons,
     /// Whether the window is dark, where somebody chose that.
     pub dark: Option<bool>,
     /// How large text and widgets are, to what the system says: 1 as it says.
@@ -83,6 +96,20 @@ impl Kept {
                 .collect(),
             _ => BTreeMap::new(),
         };
+        let lessons = match others.remove("lessons") {
+            Some(Value::Object(map)) => {
+                let text = |name: &str| {
+                    let text = map.get(name).and_then(Value::as_str);
+                    text.unwrap_or_default().to_owned()
+                };
+                KeptLessons {
+                    language: text("language"),
+                    open: text("open"),
+                    student: text("student"),
+                }
+            }
+            _ => KeptLessons::default(),
+        };
         let dark = others.remove("dark").and_then(|dark| dark.as_bool());
         let scale = others.remove("scale").and_then(|scale| scale.as_f64());
         Self {
@@ -93,6 +120,7 @@ impl Kept {
             console,
             scenes,
             favourites,
+            lessons,
             others,
         }
     }
@@ -145,6 +173,18 @@ impl Kept {
         self.write()
     }
 
+    /// Keeps what is open of lessons.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. It is there until the program ends.
+    pub fn remember_lessons(&mut self, lessons: KeptLessons) -> Result<(), String> {
+        if self.lessons == lessons {
+            return Ok(());
+        }
+        self.lessons = lessons;
+        self.write()
+    }
+
     /// Keeps whether the window is dark.
     ///
     /// # Errors
@@ -189,6 +229,19 @@ impl Kept {
             let favourites = self.favourites.iter();
             let favourites = favourites.map(|(key, name)| (key.to_string(), name.clone().into()));
             all.insert("favourites".to_owned(), Value::Object(favourites.collect()));
+        }
+        if self.lessons != KeptLessons::default() {
+            let KeptLessons {
+                language,
+                open,
+                student,
+            } = &self.lessons;
+            let lessons = [("language", language), ("open", open), ("student", student)];
+            let lessons = lessons.map(|(name, text)| (name.to_owned(), text.clone().into()));
+            all.insert(
+                "lessons".to_owned(),
+                Value::Object(lessons.into_iter().collect()),
+            );
         }
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
@@ -260,6 +313,22 @@ mod tests {
         }
         assert_eq!(kept.scenes.len(), MOST_SCENES);
         assert_eq!(kept.scenes[0], "19");
+    }
+
+    #[test]
+    fn the_open_lesson_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("editor.json");
+        let lessons = KeptLessons {
+            language: "es".to_owned(),
+            open: "01-a".to_owned(),
+            student: "ana \"x\"".to_owned(),
+        };
+        let mut kept = Kept::read(Some(path.clone()));
+        kept.remember_lessons(lessons.clone()).unwrap();
+        assert_eq!(Kept::read(Some(path.clone())).lessons, lessons);
+        std::fs::write(&path, "{\"lessons\": {\"open\": 3}}").unwrap();
+        assert_eq!(Kept::read(Some(path)).lessons, KeptLessons::default());
     }
 
     #[test]

@@ -39,11 +39,13 @@ pub enum Panel {
     Notebook,
     /// Scripts and shaders.
     Code,
+    /// A lesson: its text, its tasks and what a check found.
+    Lesson,
 }
 
 impl Panel {
     /// All of them.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Viewport,
         Self::Targets,
         Self::Pixel,
@@ -60,6 +62,7 @@ impl Panel {
         Self::Compare,
         Self::Notebook,
         Self::Code,
+        Self::Lesson,
     ];
 
     /// The words on its tab.
@@ -81,6 +84,7 @@ impl Panel {
             Self::Compare => say!("layout.compare"),
             Self::Notebook => say!("layout.notebook"),
             Self::Code => say!("layout.code"),
+            Self::Lesson => say!("lesson.panel"),
         }
     }
 }
@@ -95,6 +99,7 @@ pub fn first() -> Tree<Panel> {
             .collect();
         tiles.insert_tab_tile(panes)
     };
+    let lesson = tabs(&[Panel::Lesson]);
     let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
     let log = tabs(&[
@@ -126,10 +131,11 @@ pub fn first() -> Tree<Panel> {
     let root = split(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(code, 0.5), (left, 0.62), (right, 0.38)],
+        &[(lesson, 0.5), (code, 0.5), (left, 0.62), (right, 0.38)],
     );
     let mut tree = Tree::new(egui::Id::unique("panels"), root, tiles);
-    // It takes its place when a file is opened.
+    // They take their places when a lesson or a file is opened.
+    set_visible(&mut tree, Panel::Lesson, false);
     set_visible(&mut tree, Panel::Code, false);
     tree
 }

@@ -60,6 +60,12 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
             ],
             &[
                 entry(Action::Gallery, message!("action.gallery"), None),
+                entry(Action::Lessons, message!("action.lessons"), None),
+                entry(
+                    Action::CheckLesson,
+                    message!("action.check_the_lesson"),
+                    None,
+                ),
                 entry(Action::OpenProject, message!("action.open_a_project"), None),
                 // Before the key without Shift, which fits both.
                 entry(
@@ -364,6 +370,11 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                     None,
                 ),
                 entry(Action::Toggle(Panel::Code), message!("action.code"), None),
+                entry(
+                    Action::Toggle(Panel::Lesson),
+                    message!("action.lesson"),
+                    None,
+                ),
             ],
             &[
                 entry(

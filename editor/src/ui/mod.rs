@@ -15,6 +15,8 @@ mod keeping;
 pub mod kept;
 pub mod layout;
 pub mod lens;
+pub mod lesson;
+mod lessoning;
 pub mod menus;
 pub(crate) mod messages;
 mod panels;

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod figures;
+mod formulas;
 mod mutants;
 mod texts;
 mod variants;

@@ -12,6 +12,7 @@ pub mod help;
 pub mod histogram;
 pub mod history;
 pub mod leaving;
+pub mod lesson;
 pub mod log;
 pub mod marks;
 pub mod menu;

@@ -5,6 +5,7 @@ use std::path::Path;
 use lightbench::assets::files::Files;
 
 use super::notebook::Notebook;
+use super::reporting::WorkerOptions;
 use super::watching::{Touched, Watch};
 use super::{Wake, Workbench};
 
@@ -51,6 +52,11 @@ impl Workbench {
     /// Who is told when a thread has finished something.
     pub(in crate::ui) fn wake(&self) -> &Wake {
         &self.wake
+    }
+
+    /// How processes of the program are started.
+    pub(in crate::ui) fn worker(&self) -> &WorkerOptions {
+        &self.worker
     }
 
     /// Whether changes of the project's files are noticed.

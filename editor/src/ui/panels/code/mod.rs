@@ -1,7 +1,7 @@
 //! Scripts and shaders, to be read and changed beside the picture.
 
 mod find;
-mod lines;
+pub mod lines;
 mod list;
 mod notes;
 mod text;
