@@ -31,6 +31,8 @@ pub enum Action {
     LookFrom(Side),
     /// Back from an orthographic view to the camera that a person moves.
     Perspective,
+    /// Give the other viewport the focus.
+    OtherViewport,
     /// Show something over the picture, or hide it.
     Mark(Mark),
     /// Compare two pipelines, and keep what was found.
@@ -341,6 +343,19 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                     Action::Frame,
                     message!("action.frame_the_scene"),
                     key(Key::Home),
+                ),
+            ],
+            &[
+                // Before the key without Shift, which fits both.
+                entry(
+                    Action::OtherViewport,
+                    message!("action.go_to_the_other_viewport"),
+                    shifted(Key::V),
+                ),
+                entry(
+                    Action::Toggle(Panel::Second),
+                    message!("action.second_viewport"),
+                    key(Key::V),
                 ),
             ],
             &[

@@ -9,6 +9,7 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
+use super::arrangement::{Arrangement, Look};
 use super::code::Code;
 use super::dialogs::{Dialogs, Question};
 use super::gallery::Gallery;
@@ -27,6 +28,7 @@ use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::screen::Screen;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
+use super::workbench::viewports::Viewport;
 
 /// The state of the window's contents. [`Editor::ui`] draws it; who calls that owns the window.
 pub struct Editor {
@@ -56,10 +58,12 @@ pub struct Editor {
     pub(super) palette: Option<Palette>,
     /// The window that saves the scene, while it is open.
     pub(super) saving: Option<panels::saving::Saving>,
-    /// What is drawn over the picture.
-    pub(super) marks: Marks,
+    /// What is drawn over the picture of each viewport.
+    marks: [Marks; 2],
     /// What is kept over restarts.
     pub kept: Kept,
+    /// How the window was arranged when that was last looked at.
+    arranged: Option<Arrangement>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -82,13 +86,18 @@ pub struct Editor {
 impl Editor {
     /// An editor whose widgets are drawn by `painter` on the workbench's device.
     pub fn new(
-        workbench: Workbench,
+        mut workbench: Workbench,
         painter: Arc<RwLock<egui_wgpu::Renderer>>,
         kept: Kept,
     ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
         let code = Code::new(kept.unsaved_folder(), workbench.files());
-        let mut layout = layout::first();
+        let Arrangement {
+            panels: mut layout,
+            marks,
+            second,
+        } = kept.arrangement.clone().unwrap_or_default();
+        workbench.second.look_through_later(second.sight());
         if !code.offered.is_empty() {
             layout::set_visible(&mut layout, Panel::Code, true);
         }
@@ -111,8 +120,9 @@ impl Editor {
             paste: None,
             palette: None,
             saving: None,
-            marks: Marks::default(),
+            marks,
             kept,
+            arranged: None,
             bring: None,
             revealed: None,
             hint: true,
@@ -136,6 +146,11 @@ impl Editor {
     /// The same, from within a panel: the layout is at work until all are drawn.
     pub(super) fn reveal(&mut self, panel: Panel) {
         self.revealed = Some(panel);
+    }
+
+    /// What is drawn over the picture of a viewport.
+    pub(super) fn marks_of(&self, viewport: Viewport) -> Marks {
+        self.marks[viewport as usize]
     }
 
     /// Brings a panel before those that share its place.
@@ -164,7 +179,9 @@ impl Editor {
             // The panels need the editor, and the tree is a part of it.
             let mut tree =
                 std::mem::replace(&mut self.layout, Tree::empty(egui::Id::unique("moved")));
+            panels::steering::begin(self);
             tree.ui(&mut Panels { editor: self, now }, ui);
+            panels::steering::end(self);
             if self.layout.is_empty() {
                 self.layout = tree;
             }
@@ -190,6 +207,7 @@ impl Editor {
         }
         self.take_dropped_files(&ctx);
         self.remember_scene();
+        self.remember_arrangement(&ctx);
 
         let busy = ctx.input(|input| input.pointer.any_down());
         self.was_typing = ctx.egui_wants_keyboard_input();
@@ -216,7 +234,8 @@ impl Editor {
             Action::ResetCamera => workbench.reset_camera(),
             Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
             Action::Perspective => workbench.look_through(Sight::Perspective),
-            Action::Mark(mark) => self.marks.toggle(mark),
+            Action::OtherViewport => workbench.set_focus(workbench.focus().other()),
+            Action::Mark(mark) => self.marks[workbench.focus() as usize].toggle(mark),
             Action::Compare(action) => super::compare_actions::perform(self, action, ctx),
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
@@ -316,6 +335,33 @@ impl Editor {
         }
     }
 
+    /// Keeps how the window is arranged, once somebody has changed that.
+    fn remember_arrangement(&mut self, ctx: &egui::Context) {
+        let (is_input, held) =
+            ctx.input(|input| (!input.events.is_empty(), input.pointer.any_down()));
+        let changes = self.arranged.is_none() || is_input && !held;
+        // What a scene is seen through is known with the scene.
+        if !changes || self.workbench.scenes.shown().is_none() {
+            return;
+        }
+        let second = Look::of(self.workbench.sight_of(Viewport::Second));
+        let known = self.arranged.as_ref();
+        if known.is_some_and(|known| {
+            known.panels == self.layout && known.marks == self.marks && known.second == second
+        }) {
+            return;
+        }
+        let now = Arrangement {
+            panels: self.layout.clone(),
+            marks: self.marks,
+            second,
+        };
+        let is_first = self.arranged.replace(now.clone()).is_none();
+        if !is_first && let Err(error) = self.kept.arrange(now) {
+            self.workbench.log.warn(error);
+        }
+    }
+
     /// Keeps the scene on screen among those of late.
     fn remember_scene(&mut self) {
         let scenes = &self.workbench.scenes;
@@ -352,8 +398,13 @@ struct Panels<'a> {
 
 impl egui_tiles::Behavior<Panel> for Panels<'_> {
     fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, panel: &mut Panel) -> UiResponse {
-        if *panel == Panel::Viewport {
-            panels::viewport::show(self.editor, ui, self.now);
+        let viewport = match panel {
+            Panel::Viewport => Some(Viewport::First),
+            Panel::Second => Some(Viewport::Second),
+            _ => None,
+        };
+        if let Some(viewport) = viewport {
+            panels::viewport::show(self.editor, ui, self.now, viewport);
             return UiResponse::None;
         }
         let fill = ui.visuals().panel_fill;
@@ -378,7 +429,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Compare => panels::compare::show(self.editor, ui),
             Panel::Notebook => panels::notebook::show(self.editor, ui),
             Panel::Code => panels::code::show(self.editor, ui),
-            Panel::Viewport => {}
+            Panel::Viewport | Panel::Second => {}
         }
         UiResponse::None
     }

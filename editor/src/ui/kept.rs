@@ -7,14 +7,19 @@ use std::path::PathBuf;
 use lightbench::assets::files::write_atomic;
 use serde_json::{Map, Value};
 
+use super::arrangement::Arrangement;
+
 /// Lines of the console that are kept.
 const MOST_LINES: usize = 200;
+
+/// The name under which the arrangement of the window is kept.
+const ARRANGEMENT: &str = "arrangement";
 
 /// Scenes that are kept.
 const MOST_SCENES: usize = 8;
 
 /// What is kept, and where.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Kept {
     path: Option<PathBuf>,
     /// Whether there was no file yet: the editor starts for the first time.
@@ -25,7 +30,9 @@ pub struct Kept {
     pub scenes: Vec<String>,
     /// The pipelines of number keys from 1, where somebody gave a key to one.
     pub favourites: BTreeMap<usize, String>,
-    /// What other versions of the program have written.
+    /// How the window is arranged.
+    pub arrangement: Option<Arrangement>,
+    /// What other versions of the program have written, and what is not read anew.
     others: Map<String, Value>,
 }
 
@@ -74,12 +81,14 @@ impl Kept {
                 .collect(),
             _ => BTreeMap::new(),
         };
+        let arrangement = others.get(ARRANGEMENT).and_then(Arrangement::read);
         Self {
             is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
             scenes,
             favourites,
+            arrangement,
             others,
         }
     }
@@ -124,6 +133,18 @@ impl Kept {
     pub fn give_key(&mut self, key: usize, pipeline: &str) -> Result<(), String> {
         self.favourites.retain(|_, known| known != pipeline);
         self.favourites.insert(key, pipeline.to_owned());
+        self.write()
+    }
+
+    /// Keeps how the window is arranged.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. It holds until the program ends.
+    pub fn arrange(&mut self, arrangement: Arrangement) -> Result<(), String> {
+        if let Some(value) = arrangement.to_value() {
+            self.others.insert(ARRANGEMENT.to_owned(), value);
+        }
+        self.arrangement = Some(arrangement);
         self.write()
     }
 

@@ -2,11 +2,18 @@
 
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
-/// A panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use serde::{Deserialize, Serialize};
+
+use super::workbench::viewports::Viewport;
+
+/// A panel. Its name in the file of settings is that of the variant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Panel {
     /// The picture.
     Viewport,
+    /// Another one, of the same world.
+    Second,
     /// Any target of any pass.
     Targets,
     /// What each pass does to a pixel.
@@ -40,10 +47,32 @@ pub enum Panel {
 }
 
 impl Panel {
+    /// All.
+    pub const ALL: [Self; 17] = [
+        Self::Viewport,
+        Self::Second,
+        Self::Targets,
+        Self::Pixel,
+        Self::Passes,
+        Self::Pipeline,
+        Self::Pipelines,
+        Self::Scene,
+        Self::Entities,
+        Self::Log,
+        Self::Console,
+        Self::Actions,
+        Self::Plots,
+        Self::History,
+        Self::Compare,
+        Self::Notebook,
+        Self::Code,
+    ];
+
     /// The words on its tab.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Viewport => "Viewport",
+            Self::Viewport => Viewport::First.title(),
+            Self::Second => Viewport::Second.title(),
             Self::Targets => "Targets",
             Self::Pixel => "Pixel",
             Self::Passes => "Passes",
@@ -75,6 +104,7 @@ pub fn first() -> Tree<Panel> {
     };
     let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
+    let second = tabs(&[Panel::Second]);
     let log = tabs(&[
         Panel::Log,
         Panel::Console,
@@ -91,10 +121,15 @@ pub fn first() -> Tree<Panel> {
     ]);
     let passes = tabs(&[Panel::Passes]);
     let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
+    let viewports = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(viewport, 0.5), (second, 0.5)],
+    );
     let left = split(
         &mut tiles,
         LinearDir::Vertical,
-        &[(viewport, 0.76), (log, 0.24)],
+        &[(viewports, 0.76), (log, 0.24)],
     );
     let right = split(
         &mut tiles,
@@ -109,6 +144,7 @@ pub fn first() -> Tree<Panel> {
     let mut tree = Tree::new(egui::Id::unique("panels"), root, tiles);
     // It takes its place when a file is opened.
     set_visible(&mut tree, Panel::Code, false);
+    set_visible(&mut tree, Panel::Second, false);
     tree
 }
 
@@ -141,4 +177,23 @@ pub fn set_visible(tree: &mut Tree<Panel>, panel: Panel, visible: bool) {
             tree.make_active(|other, _| other == id);
         }
     }
+}
+
+/// Puts a panel that is not there into the tree, hidden. `None` where the tree has no place for it.
+pub fn add_hidden(tree: &mut Tree<Panel>, panel: Panel) -> Option<()> {
+    let root = tree.root()?;
+    let pane = tree.tiles.insert_pane(panel);
+    let tabs = tree.tiles.insert_tab_tile(vec![pane]);
+    match tree.tiles.get_mut(root)? {
+        Tile::Container(container) => container.add_child(tabs),
+        Tile::Pane(_) => {
+            let both = Linear::new(LinearDir::Horizontal, vec![root, tabs]);
+            let both = tree
+                .tiles
+                .insert_new(Tile::Container(Container::Linear(both)));
+            tree.root = Some(both);
+        }
+    }
+    set_visible(tree, panel, false);
+    Some(())
 }

@@ -22,17 +22,18 @@ pub fn bounds_of(scene: &Scene, entity: Entity) -> Option<(Vec3, Vec3)> {
 }
 
 impl Workbench {
-    /// Shows the whole scene from the present direction.
+    /// Shows the whole scene from the present direction, in the viewport that has the focus.
     pub fn frame_scene(&mut self) {
         if let Some((min, max)) = self.scene_bounds() {
-            self.camera.frame(min, max);
+            self.camera_of_mut(self.focus()).frame(min, max);
         }
     }
 
-    /// Shows all of what is chosen from the present direction, or the whole scene where nothing is.
+    /// Shows all of what is chosen from the present direction, or the whole scene where nothing is, in
+    /// the viewport that has the focus.
     pub fn frame_selection(&mut self) {
         match self.selection_bounds() {
-            Some((min, max)) => self.camera.frame(min, max),
+            Some((min, max)) => self.camera_of_mut(self.focus()).frame(min, max),
             None => self.frame_scene(),
         }
     }
@@ -51,10 +52,11 @@ impl Workbench {
         boxes.reduce(|(a, b), (min, max)| (a.min(min), b.max(max)))
     }
 
-    /// Back to the scene's own camera.
+    /// Back to the scene's own camera, in the viewport that has the focus.
     pub fn reset_camera(&mut self) {
-        self.watched_camera = None;
-        self.camera.reset();
+        let viewport = self.focus();
+        self.watch_camera(viewport, None);
+        self.camera_of_mut(viewport).reset();
     }
 
     /// A box around everything that is drawn.

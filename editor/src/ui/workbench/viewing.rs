@@ -8,6 +8,7 @@ use lightbench::script::Settings;
 use super::Workbench;
 use super::pipelines::Pipelines;
 use super::sight::Sight;
+use super::viewports::Viewport;
 use crate::viewpoint::moment::Steps;
 use crate::viewpoint::{Eye, Viewpoint};
 
@@ -23,18 +24,24 @@ pub(super) struct Arriving {
 }
 
 impl Workbench {
-    /// What is on the screen; `None` before the first picture. Of two pipelines it has A.
+    /// What is on the screen; `None` before the first picture. Of two pipelines it has A, of two
+    /// viewports the first.
     pub fn viewpoint(&self) -> Option<Viewpoint> {
-        self.viewpoint_of(&self.pipelines)
+        self.viewpoint_in(Viewport::First)
+    }
+
+    /// The same of a viewport.
+    pub fn viewpoint_in(&self, viewport: Viewport) -> Option<Viewpoint> {
+        self.viewpoint_of(&self.pipelines, viewport)
     }
 
     /// The same with B, while two pipelines are compared.
     pub fn other_viewpoint(&self) -> Option<Viewpoint> {
         let side = self.comparing.side().filter(|_| self.comparing.is_on())?;
-        self.viewpoint_of(&side.pipelines)
+        self.viewpoint_of(&side.pipelines, Viewport::First)
     }
 
-    fn viewpoint_of(&self, pipelines: &Pipelines) -> Option<Viewpoint> {
+    fn viewpoint_of(&self, pipelines: &Pipelines, viewport: Viewport) -> Option<Viewpoint> {
         let pipeline = pipelines.shown()?;
         let settings = pipelines.slot(pipeline).map(|slot| slot.settings.clone());
         let scene = self.scenes.shown()?;
@@ -47,9 +54,9 @@ impl Workbench {
             scene_settings: self.outside_by_path(scene_settings.cloned().unwrap_or_default()),
             pipeline: pipeline.to_owned(),
             pipeline_settings: settings.unwrap_or_default(),
-            camera: self.eye(),
+            camera: self.eye(viewport),
             time: self.clock.time(),
-            size: self.viewport_size()?,
+            size: self.canvas_of(viewport).drawn?.size,
         })
     }
 
@@ -67,14 +74,16 @@ impl Workbench {
         shown
     }
 
-    fn eye(&self) -> Eye {
-        if let Some(flat) = self.camera.flat() {
+    fn eye(&self, viewport: Viewport) -> Eye {
+        let camera = self.camera_of(viewport);
+        if let Some(flat) = camera.flat() {
             return Eye::Side(*flat);
         }
-        if self.camera.is_moved() {
-            return Eye::Free(self.camera.free());
+        if camera.is_moved() {
+            return Eye::Free(camera.free());
         }
-        self.watched_camera.clone().map_or(Eye::Scene, Eye::Named)
+        let watched = self.watched_camera_of(viewport).clone();
+        watched.map_or(Eye::Scene, Eye::Named)
     }
 
     /// What a view in words leaves out of what is on the screen, in a sentence.
@@ -88,7 +97,8 @@ impl Workbench {
         })
     }
 
-    /// Goes to a view: loads its scene anew, swaps to its pipeline and moves time and camera there.
+    /// Goes to a view: loads its scene anew, swaps to its pipeline and moves time there, and the camera
+    /// of the viewport that has the focus.
     ///
     /// # Errors
     /// A sentence, where the view names a file outside of the project that nobody has opened.
@@ -166,8 +176,8 @@ impl Workbench {
                 }
                 self.look_through(Sight::Camera(name));
             }
-            Eye::Free(free) => self.camera.stand(free),
-            Eye::Side(flat) => self.camera.show_flat(flat),
+            Eye::Free(free) => self.camera_of_mut(self.focus()).stand(free),
+            Eye::Side(flat) => self.camera_of_mut(self.focus()).show_flat(flat),
         }
     }
 

@@ -10,6 +10,7 @@ use super::{Frame, LENGTH, Part, Tool};
 use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
 use crate::ui::workbench::structure::is_locked;
+use crate::ui::workbench::viewports::Viewport;
 
 /// An entity as it was when the drag began.
 struct Start {
@@ -34,6 +35,8 @@ pub struct Drag {
     pub frame: Frame,
     /// Which one is dragged.
     pub part: Part,
+    /// In which viewport.
+    pub viewport: Viewport,
     from: Pos2,
     last: Pos2,
     /// Radians that the pointer has gone around the middle, against the clock.
@@ -48,7 +51,13 @@ impl Drag {
     ///
     /// # Errors
     /// A sentence, where something of it can't be changed by hand.
-    pub fn begin(editor: &Editor, frame: Frame, part: Part, at: Pos2) -> Result<Self, String> {
+    pub fn begin(
+        editor: &Editor,
+        frame: Frame,
+        part: Part,
+        at: Pos2,
+        viewport: Viewport,
+    ) -> Result<Self, String> {
         let workbench = &editor.workbench;
         let scene = workbench.scenes.scene();
         let scene = scene.ok_or_else(|| "no scene is loaded".to_owned())?;
@@ -85,6 +94,7 @@ impl Drag {
         Ok(Self {
             frame,
             part,
+            viewport,
             from: at,
             last: at,
             turned: 0.0,
