@@ -262,6 +262,10 @@ impl Editor {
             Action::Toggle(panel) => {
                 let visible = layout::is_visible(&self.layout, panel);
                 layout::set_visible(&mut self.layout, panel, !visible);
+                if panel == Panel::Second && !visible {
+                    workbench.open_second();
+                    workbench.set_focus(Viewport::Second);
+                }
             }
             Action::ResetLayout => self.layout = layout::first(),
             Action::SwitchTheme => {

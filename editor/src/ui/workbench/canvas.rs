@@ -56,6 +56,8 @@ pub(super) struct Canvas {
     /// The scale and the milliseconds of the last measured frame.
     cost: Option<(f32, f64)>,
     warm_up: u32,
+    /// Pictures that were drawn.
+    pub frames: u64,
     pub problem: Option<Problem>,
     pub statistics: FrameStatistics,
 }
@@ -139,6 +141,7 @@ impl Canvas {
 
     /// The picture was given to the device, as the frame of that number.
     pub fn submitted(&mut self, frame: u32, drawn: Drawn, statistics: &FrameStatistics) {
+        self.frames += 1;
         self.statistics.clone_from(statistics);
         self.scales.push_back((frame, drawn.scale));
         if self.scales.len() > IN_FLIGHT {

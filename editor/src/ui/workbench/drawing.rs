@@ -135,6 +135,7 @@ impl Workbench {
         const RESULTS: Duration = Duration::from_millis(20);
         const DEVICE: Duration = Duration::from_millis(4);
         let ready = self.picture_ready();
+        let first_is_seen = self.first_is_seen;
         let soonest = if self.has_room() {
             Duration::ZERO
         } else {
@@ -142,16 +143,19 @@ impl Workbench {
         };
         let soon = [
             (ready && self.clock.playing).then_some(soonest),
-            (ready && self.canvas.is_behind() && self.canvas.problem.is_none()).then_some(soonest),
+            (ready && first_is_seen && self.canvas.is_behind() && self.canvas.problem.is_none())
+                .then_some(soonest),
             self.second_due(now, soonest),
             (self.timings.is_waiting() || self.probing.is_waiting()).then_some(RESULTS),
             (self.measuring.is_waiting() || self.beside.is_waiting()).then_some(RESULTS),
             self.lighting.is_waiting().then_some(PROGRESS),
-            (self.scenes.shown().is_some() && self.pipelines.is_warming()).then_some(DEVICE),
+            (self.scenes.shown().is_some() && self.pipelines.is_warming())
+                .then_some(DEVICE)
+                .filter(|_| first_is_seen || self.second.is_open()),
             (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
                 .then_some(PROGRESS),
             // Refine the picture once nothing moves any more.
-            self.canvas.refining_due(now),
+            self.canvas.refining_due(now).filter(|_| first_is_seen),
             self.comparing_due(now),
             self.is_arriving().then_some(DEVICE),
             (self.reporting.progress().is_some() || self.notebook.is_busy()).then_some(PROGRESS),

@@ -5,6 +5,7 @@ use lightbench::world::glam::Vec3;
 use lightbench::world::{Entity, WorldBounds, WorldMatrix};
 
 use super::Workbench;
+use super::viewports::Viewport;
 
 /// A box around the meshes of an entity and of all below it.
 pub fn bounds_of(scene: &Scene, entity: Entity) -> Option<(Vec3, Vec3)> {
@@ -24,8 +25,8 @@ pub fn bounds_of(scene: &Scene, entity: Entity) -> Option<(Vec3, Vec3)> {
 impl Workbench {
     /// Shows the whole scene from the present direction, in the viewport that has the focus.
     pub fn frame_scene(&mut self) {
-        if let Some((min, max)) = self.scene_bounds() {
-            self.camera_of_mut(self.focus()).frame(min, max);
+        if let Some(bounds) = self.scene_bounds() {
+            self.frame_in(self.focus(), bounds);
         }
     }
 
@@ -33,9 +34,14 @@ impl Workbench {
     /// the viewport that has the focus.
     pub fn frame_selection(&mut self) {
         match self.selection_bounds() {
-            Some((min, max)) => self.camera_of_mut(self.focus()).frame(min, max),
+            Some(bounds) => self.frame_in(self.focus(), bounds),
             None => self.frame_scene(),
         }
+    }
+
+    fn frame_in(&mut self, viewport: Viewport, (min, max): (Vec3, Vec3)) {
+        let aspect = self.aspect_of(viewport);
+        self.camera_of_mut(viewport).frame(min, max, aspect);
     }
 
     /// A box around what is chosen and all below it; what has no mesh counts with the metre around

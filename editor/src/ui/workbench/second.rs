@@ -26,6 +26,8 @@ pub struct Second {
     pub(super) watched_camera: Option<String>,
     /// What it looks through in the next scene, where that is not what it looks through now.
     coming: Option<Sight>,
+    /// Whether all of the scene is to be shown once the size of the viewport is known.
+    fits: bool,
     is_open: bool,
     pub(super) canvas: Canvas,
     /// The state of the first canvas that this one knows: changes of the world are told to that.
@@ -43,6 +45,7 @@ impl Default for Second {
             watched_camera: None,
             // What the first viewport does not show already.
             coming: Some(Sight::Side(Side::Top)),
+            fits: false,
             is_open: false,
             canvas: Canvas::default(),
             known: 0,
@@ -86,15 +89,29 @@ impl Second {
 }
 
 impl Workbench {
-    /// The picture for the second viewport, of `size` pixels, drawn anew where something changed.
-    /// This opens it. `None` until the first scene and pipeline are ready.
-    pub fn draw_second(&mut self, size: (u32, u32), now: Instant) -> Option<Picture> {
-        let size = (size.0.max(1), size.1.max(1));
+    /// The second viewport can be seen from now on: see [`Workbench::note_seen`].
+    pub fn open_second(&mut self) {
         let second = &mut self.second;
         if !std::mem::replace(&mut second.is_open, true) {
             second.known = self.canvas.revision;
             second.swaps = self.pipelines.swaps();
         }
+    }
+
+    /// The picture for the second viewport, of `size` pixels, drawn anew where something changed.
+    /// This opens it. `None` until the first scene and pipeline are ready.
+    pub fn draw_second(&mut self, size: (u32, u32), now: Instant) -> Option<Picture> {
+        let size = (size.0.max(1), size.1.max(1));
+        self.open_second();
+        let second = &mut self.second;
+        if std::mem::take(&mut second.fits)
+            && let Some(flat) = second.camera.flat().copied()
+            && let Some(bounds) = self.scene_bounds()
+        {
+            let aspect = size.0 as f32 / size.1 as f32;
+            self.second.camera.flatten(flat.side, bounds, aspect);
+        }
+        let second = &mut self.second;
         second.catch_up(&self.canvas, self.pipelines.swaps());
         let looks = (second.camera.view(), size);
         let wanted = second
@@ -143,6 +160,10 @@ impl Workbench {
         self.first_is_seen = first;
         if !first {
             self.canvas.waits = false;
+        }
+        if !first && !second {
+            // Nobody draws B: the scene must not stand still for it.
+            self.comparing.wait_no_more();
         }
         if second || !self.second.is_open {
             return;
@@ -256,6 +277,7 @@ impl Workbench {
         };
         if let Some(sight) = sight.filter(is_there) {
             self.look_through_in(Viewport::Second, sight);
+            self.second.fits = true;
         }
     }
 }

@@ -65,8 +65,9 @@ impl Workbench {
                 self.camera_of_mut(viewport).reset();
             }
             Sight::Side(side) => {
-                let (min, max) = self.scene_bounds().unwrap_or((-EMPTY, EMPTY));
-                self.camera_of_mut(viewport).flatten(side, min, max);
+                let bounds = self.scene_bounds().unwrap_or((-EMPTY, EMPTY));
+                let aspect = self.aspect_of(viewport);
+                self.camera_of_mut(viewport).flatten(side, bounds, aspect);
             }
         }
     }

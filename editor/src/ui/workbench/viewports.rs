@@ -65,6 +65,17 @@ impl Workbench {
         }
     }
 
+    /// How many pictures a viewport has drawn; the second one since it was opened.
+    pub fn frames_of(&self, viewport: Viewport) -> u64 {
+        self.canvas_of(viewport).frames
+    }
+
+    /// How many times as wide as high a viewport is; square until it has drawn.
+    pub(super) fn aspect_of(&self, viewport: Viewport) -> f32 {
+        let drawn = self.canvas_of(viewport).drawn;
+        drawn.map_or(1.0, |drawn| drawn.size.0 as f32 / drawn.size.1 as f32)
+    }
+
     /// Where a viewport is seen from.
     pub fn camera_of(&self, viewport: Viewport) -> &CameraRig {
         match viewport {
