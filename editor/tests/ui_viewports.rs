@@ -61,10 +61,11 @@ fn open() -> Bench {
     bench
 }
 
-/// The same with both viewports; the second has the focus then.
+/// The same with both viewports; the second looks from the top and has the focus.
 fn open_both() -> Bench {
     let mut bench = open();
     bench.key(Modifiers::NONE, Key::V);
+    bench.key(CTRL, Key::Num1);
     second_picture(&mut bench);
     bench
 }
@@ -195,9 +196,13 @@ fn until_at_rest(bench: &mut Bench) {
 fn each_viewport_shows_what_a_single_one_would() {
     let mut bench = open();
     let alone = bench.picture();
+    // It begins with what the first one shows.
     bench.key(Modifiers::NONE, Key::V);
-    let top = second_picture(&mut bench);
+    let begun = second_picture(&mut bench);
     let first = bench.picture();
+    assert!(begun == first);
+    bench.key(CTRL, Key::Num1);
+    let top = second_picture(&mut bench);
     assert_eq!(sight(&bench, Viewport::Second), Sight::Side(Side::Top));
     assert!(view_text(&bench, Viewport::Second).contains("camera=top"));
     assert!(drawn_alone(&bench, Viewport::Second) == top);

@@ -19,17 +19,16 @@ pub struct Arrangement {
     /// What is drawn over the picture of each viewport.
     #[serde(default)]
     pub marks: [Marks; 2],
-    /// What the second viewport looks through.
+    /// What the second viewport looks through, once it was opened.
     #[serde(default)]
-    pub second: Look,
+    pub second: Option<Look>,
 }
 
 /// What a viewport looks through, as it is kept.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Look {
     /// From above.
-    #[default]
     Top,
     /// From the front.
     Front,
@@ -70,7 +69,7 @@ impl Default for Arrangement {
         Self {
             panels: layout::first(),
             marks: Default::default(),
-            second: Look::default(),
+            second: None,
         }
     }
 }
@@ -140,7 +139,7 @@ mod tests {
 
     fn first() -> Arrangement {
         Arrangement {
-            second: Look::Camera("eye".to_owned()),
+            second: Some(Look::Camera("eye".to_owned())),
             ..Arrangement::default()
         }
     }

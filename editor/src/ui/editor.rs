@@ -97,7 +97,9 @@ impl Editor {
             marks,
             second,
         } = kept.arrangement.clone().unwrap_or_default();
-        workbench.second.look_through_later(second.sight());
+        if let Some(look) = second {
+            workbench.second.look_through_later(look.sight());
+        }
         if !code.offered.is_empty() {
             layout::set_visible(&mut layout, Panel::Code, true);
         }
@@ -348,7 +350,8 @@ impl Editor {
         if !changes || self.workbench.scenes.shown().is_none() {
             return;
         }
-        let second = Look::of(self.workbench.sight_of(Viewport::Second));
+        let was_opened = !self.workbench.second.is_new();
+        let second = was_opened.then(|| Look::of(self.workbench.sight_of(Viewport::Second)));
         let known = self.arranged.as_ref();
         if known.is_some_and(|known| {
             known.panels == self.layout && known.marks == self.marks && known.second == second

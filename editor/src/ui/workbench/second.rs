@@ -13,7 +13,6 @@ use super::Workbench;
 use super::camera::CameraRig;
 use super::canvas::{Canvas, Drawn};
 use super::drawing::Picture;
-use super::flat::Side;
 use super::sight::Sight;
 use super::timing::Timings;
 use super::viewports::Viewport;
@@ -24,6 +23,8 @@ pub struct Second {
     pub camera: CameraRig,
     /// The camera of the scene through which a person wants to look, by its name.
     pub(super) watched_camera: Option<String>,
+    /// Whether it was never opened: then it begins with what the first viewport shows.
+    is_new: bool,
     /// What it looks through in the next scene, where that is not what it looks through now.
     coming: Option<Sight>,
     /// Whether all of the scene is to be shown once the size of the viewport is known.
@@ -43,8 +44,8 @@ impl Default for Second {
         Self {
             camera: CameraRig::default(),
             watched_camera: None,
-            // What the first viewport does not show already.
-            coming: Some(Sight::Side(Side::Top)),
+            is_new: true,
+            coming: None,
             fits: false,
             is_open: false,
             canvas: Canvas::default(),
@@ -62,8 +63,14 @@ impl Second {
         self.is_open
     }
 
+    /// Whether it was never opened.
+    pub fn is_new(&self) -> bool {
+        self.is_new
+    }
+
     /// What it looks through once a scene is there.
     pub fn look_through_later(&mut self, sight: Sight) {
+        self.is_new = false;
         self.coming = Some(sight);
     }
 
@@ -95,6 +102,10 @@ impl Workbench {
         if !std::mem::replace(&mut second.is_open, true) {
             second.known = self.canvas.revision;
             second.swaps = self.pipelines.swaps();
+        }
+        if std::mem::take(&mut second.is_new) {
+            second.camera = self.camera;
+            second.watched_camera.clone_from(&self.watched_camera);
         }
     }
 
