@@ -317,7 +317,7 @@ fn a_click_chooses_what_lies_there_in_that_viewport() {
     assert_eq!(chosen(&bench), ["box 0"]);
     assert!(bench.harness.state().workbench.probing.pixel.is_some());
 
-    let [from, to] = [Vec3::new(-2.8, 0.0, -0.8), Vec3::new(0.8, 0.0, 0.8)]
+    let [from, to] = [Vec3::new(-2.6, 0.0, -0.8), Vec3::new(0.8, 0.0, 0.8)]
         .map(|at| place(&bench, Viewport::Second, at));
     drag(&mut bench, from, to, Modifiers::SHIFT);
     assert_eq!(chosen(&bench), ["box 0", "box 1", "lamp"]);

@@ -40,6 +40,8 @@ impl Drawn {
 /// The state of a viewport's picture.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
+    /// The viewport's pixels, once it was seen.
+    pub size: Option<(u32, u32)>,
     pub drawn: Option<Drawn>,
     /// Something other than view and size changed since.
     stale: bool,
@@ -93,6 +95,7 @@ impl Canvas {
         playing: bool,
         resolution: &Resolution,
     ) -> Drawn {
+        self.size = Some(size);
         // What changes counts as moving: a slow adapter shows it small at once, and in full as soon
         // as nothing follows.
         let changed = |drawn: Drawn| drawn.view != view || self.stale;

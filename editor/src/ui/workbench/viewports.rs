@@ -70,10 +70,10 @@ impl Workbench {
         self.canvas_of(viewport).frames
     }
 
-    /// How many times as wide as high a viewport is; square until it has drawn.
+    /// How many times as wide as high a viewport is; 1 until it was seen.
     pub(super) fn aspect_of(&self, viewport: Viewport) -> f32 {
-        let drawn = self.canvas_of(viewport).drawn;
-        drawn.map_or(1.0, |drawn| drawn.size.0 as f32 / drawn.size.1 as f32)
+        let size = self.canvas_of(viewport).size;
+        size.map_or(1.0, |(width, height)| width as f32 / height as f32)
     }
 
     /// Where a viewport is seen from.
