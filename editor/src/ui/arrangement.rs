@@ -6,10 +6,12 @@ use std::collections::HashSet;
 use egui_tiles::{Container, Tile, TileId, Tree};
 use serde::{Deserialize, Serialize};
 
+use super::editor::Editor;
 use super::layout::{self, Panel};
 use super::panels::marks::Marks;
 use super::workbench::flat::Side;
 use super::workbench::sight::Sight;
+use super::workbench::viewports::Viewport;
 
 /// How the window is arranged.
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
@@ -129,6 +131,41 @@ fn has_sound_shares(container: &Container) -> bool {
         // Panels can't be laid in a grid here.
         Container::Grid(_) => false,
         Container::Tabs(_) => true,
+    }
+}
+
+impl Editor {
+    /// What is drawn over the picture of a viewport.
+    pub(super) fn marks_of(&self, viewport: Viewport) -> Marks {
+        self.marks[viewport as usize]
+    }
+
+    /// Keeps how the window is arranged, once somebody has changed that.
+    pub(super) fn remember_arrangement(&mut self, ctx: &egui::Context) {
+        let (is_input, held) =
+            ctx.input(|input| (!input.events.is_empty(), input.pointer.any_down()));
+        let changes = self.arranged.is_none() || is_input && !held;
+        // What a scene is seen through is known with the scene.
+        if !changes || self.workbench.scenes.shown().is_none() {
+            return;
+        }
+        let was_opened = !self.workbench.second.is_new();
+        let second = was_opened.then(|| Look::of(self.workbench.sight_of(Viewport::Second)));
+        let known = self.arranged.as_ref();
+        if known.is_some_and(|known| {
+            known.panels == self.layout && known.marks == self.marks && known.second == second
+        }) {
+            return;
+        }
+        let now = Arrangement {
+            panels: self.layout.clone(),
+            marks: self.marks,
+            second,
+        };
+        let is_first = self.arranged.replace(now.clone()).is_none();
+        if !is_first && let Err(error) = self.kept.arrange(now) {
+            self.workbench.log.warn(error);
+        }
     }
 }
 

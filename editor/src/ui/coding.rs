@@ -11,8 +11,10 @@ use super::code::document::{Document, SaveError};
 use super::code::{Leaving, Spot};
 use super::dialogs::Question;
 use super::editor::Editor;
+use super::keeping::open_recovery;
 use super::layout::Panel;
 use super::panels::saving::Saving;
+use crate::ui::messages::say;
 
 /// The file of a scene or a pipeline that is known by its name.
 fn file_of(folder: &str, name: &str) -> String {
@@ -114,7 +116,9 @@ impl Editor {
         match saved {
             Ok(()) => true,
             Err(error) => {
-                self.workbench.log.error(format!("Not saved: {error}."));
+                self.workbench
+                    .log
+                    .error(say!("coding.not_saved", error = error));
                 false
             }
         }
@@ -133,7 +137,11 @@ impl Editor {
     pub(super) fn copy_into_project(&mut self, path: &str) -> bool {
         match self.workbench.files().copy_to_project(path) {
             Ok(place) => {
-                let text = format!("{path} is now in the project: {}.", place.display());
+                let text = say!(
+                    "coding.is_now_in_the_project",
+                    path = path,
+                    place = place.display()
+                );
                 self.workbench.log.info(text);
                 let paths = [path.to_owned()];
                 self.code.refresh(self.workbench.files(), Some(&paths));
@@ -159,15 +167,6 @@ impl Editor {
         self.code_panel.focus();
     }
 
-    /// Closes the window, after what was not saved was decided about.
-    pub fn ask_to_quit(&mut self) {
-        if self.code.unsaved().next().is_some() {
-            self.code.leaving = Some(Leaving::Window);
-        } else {
-            self.quit();
-        }
-    }
-
     /// Takes in what changed on the disk, and keeps what is not saved.
     pub(super) fn tend_code(&mut self, now: Instant, focused: bool) {
         if focused && !self.was_focused {
@@ -187,7 +186,7 @@ impl Editor {
 
     /// Whether something is asked that comes before all else.
     pub(super) fn has_question(&self) -> bool {
-        self.code.leaving.is_some() || self.dialogs.is_typing()
+        self.code.leaving.is_some() || self.dialogs.is_typing() || !self.recovery.left.is_empty()
     }
 
     /// Asks for a file or a folder.
@@ -208,11 +207,11 @@ impl Editor {
             return;
         };
         let done = match question {
-            Question::Project if self.code.unsaved().next().is_some() => {
+            Question::Project if self.has_something_to_lose() => {
                 self.code.leaving = Some(Leaving::Project(path.clone()));
                 Ok(())
             }
-            Question::Project => self.try_to_open_project(&path),
+            Question::Project => self.try_to_open_project(&path, false),
             Question::Scene => self.try_to_open_file(&path),
             Question::SaveScene => self.save_scene_to(&path),
         };
@@ -222,20 +221,27 @@ impl Editor {
     }
 
     /// Goes on with another project. What keeps it from that is asked about again.
-    pub(super) fn open_project(&mut self, folder: &Path) {
-        if let Err(why) = self.try_to_open_project(folder) {
+    pub(super) fn open_project(&mut self, folder: &Path, keeps: bool) {
+        if let Err(why) = self.try_to_open_project(folder, keeps) {
             self.dialogs.refuse(Question::Project, folder, why);
         }
     }
 
-    fn try_to_open_project(&mut self, folder: &Path) -> Result<(), String> {
+    /// `keeps` leaves what was kept of the present project for when it is opened again.
+    fn try_to_open_project(&mut self, folder: &Path, keeps: bool) -> Result<(), String> {
         let is_empty = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
         let folder: PathBuf = if is_empty || !folder.exists() {
             create_project(folder).map_err(|error| error.to_string())?
         } else {
             folder.to_owned()
         };
+        let has_changes = !self.workbench.unsaved_changes().is_empty();
         self.workbench.open_project(&folder)?;
+        if !(keeps && has_changes) {
+            self.recovery.forget();
+        }
+        let project = self.workbench.files().project();
+        self.recovery = open_recovery(self.kept.recovery_folder(), project);
         let root = self.kept.unsaved_folder();
         self.code.move_to(root, self.workbench.files());
         self.forget_opened_file();

@@ -11,6 +11,8 @@ use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
 use lightbench::script::SCENE_EXTENSION;
 use rfd::{AsyncFileDialog, FileHandle};
 
+use crate::ui::messages::say;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
@@ -25,21 +27,21 @@ pub enum Question {
 impl Question {
     fn title(self) -> &'static str {
         match self {
-            Self::Project => "Open a project",
-            Self::Scene => "Open a scene",
-            Self::SaveScene => "Save the scene as",
+            Self::Project => say!("dialogs.open_a_project"),
+            Self::Scene => say!("dialogs.open_a_scene"),
+            Self::SaveScene => say!("dialogs.save_the_scene_as"),
         }
     }
 
     fn about(self) -> &'static str {
         match self {
             Self::Project => {
-                "The folder of a project. In a new or an empty folder a project is made."
+                say!("dialogs.the_folder_of_a_project_in")
             }
             Self::Scene => {
-                "A script (.rhai), a saved scene (.scene) or a model (.obj, .gltf, .glb)."
+                say!("dialogs.a_script_rhai_a_saved_scene")
             }
-            Self::SaveScene => "The file to write. It ends in .scene and holds the entities.",
+            Self::SaveScene => say!("dialogs.the_file_to_write_it_ends"),
         }
     }
 }
@@ -109,10 +111,14 @@ impl Dialogs {
             Question::Project => Box::pin(dialog.pick_folder()),
             Question::Scene => {
                 let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
-                Box::pin(dialog.add_filter("Scenes and models", &endings).pick_file())
+                Box::pin(
+                    dialog
+                        .add_filter(say!("dialogs.scenes_and_models"), &endings)
+                        .pick_file(),
+                )
             }
             Question::SaveScene => {
-                let dialog = dialog.add_filter("Scenes", &[SCENE_EXTENSION]);
+                let dialog = dialog.add_filter(say!("dialogs.scenes"), &[SCENE_EXTENSION]);
                 Box::pin(dialog.set_file_name("scene.scene").save_file())
             }
         };
@@ -192,8 +198,8 @@ impl Dialogs {
                 ui.label(RichText::new(why).color(ui.visuals().error_fg_color));
             }
             ui.horizontal(|ui| {
-                given |= ui.button("OK").clicked();
-                done = ui.button("Cancel").clicked();
+                given |= ui.button(say!("dialogs.ok")).clicked();
+                done = ui.button(say!("dialogs.cancel")).clicked();
             });
         });
         let escaped = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));

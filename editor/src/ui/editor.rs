@@ -9,10 +9,11 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
-use super::arrangement::{Arrangement, Look};
+use super::arrangement::Arrangement;
 use super::code::Code;
 use super::dialogs::{Dialogs, Question};
 use super::gallery::Gallery;
+use super::keeping;
 use super::kept::Kept;
 use super::layout::{self, Panel};
 use super::panels::code::CodePanel;
@@ -25,6 +26,7 @@ use super::panels::plots::PlotsPanel;
 use super::panels::view_text::PasteWindow;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
+use super::recovery::Recovery;
 use super::screen::Screen;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
@@ -56,14 +58,18 @@ pub struct Editor {
     pub(super) paste: Option<PasteWindow>,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
+    /// What is kept so that a crash takes little.
+    pub recovery: Recovery,
+    /// Why what should be kept before the window closes is not.
+    pub(super) not_kept: Option<String>,
     /// The window that saves the scene, while it is open.
     pub(super) saving: Option<panels::saving::Saving>,
     /// What is drawn over the picture of each viewport.
-    marks: [Marks; 2],
+    pub(super) marks: [Marks; 2],
     /// What is kept over restarts.
     pub kept: Kept,
     /// How the window was arranged when that was last looked at.
-    arranged: Option<Arrangement>,
+    pub(super) arranged: Option<Arrangement>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -72,7 +78,7 @@ pub struct Editor {
     pub hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
-    quit: bool,
+    pub(super) quit: bool,
     /// Whether a widget had the keys in the last frame.
     pub(super) was_typing: bool,
     /// Whether the window had the keys in the last frame.
@@ -81,7 +87,12 @@ pub struct Editor {
     opened: Option<PathBuf>,
     /// The swap of scenes that is kept among those of late.
     remembered: u64,
+    /// Whether the window's context has what was chosen for it.
+    is_dressed: bool,
 }
+
+/// How much larger text gets at once.
+const LARGER: f32 = 1.1;
 
 impl Editor {
     /// An editor whose widgets are drawn by `painter` on the workbench's device.
@@ -92,6 +103,8 @@ impl Editor {
     ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
         let code = Code::new(kept.unsaved_folder(), workbench.files());
+        let project = workbench.files().project();
+        let recovery = keeping::open_recovery(kept.recovery_folder(), project);
         let Arrangement {
             panels: mut layout,
             marks,
@@ -122,6 +135,8 @@ impl Editor {
             paste: None,
             palette: None,
             saving: None,
+            recovery,
+            not_kept: None,
             marks,
             kept,
             arranged: None,
@@ -135,6 +150,7 @@ impl Editor {
             was_focused: true,
             opened: None,
             remembered: 0,
+            is_dressed: false,
         }
     }
 
@@ -142,6 +158,7 @@ impl Editor {
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
+        self.is_dressed = false;
         self.workbench.move_to(gpu);
     }
 
@@ -150,14 +167,19 @@ impl Editor {
         self.revealed = Some(panel);
     }
 
-    /// What is drawn over the picture of a viewport.
-    pub(super) fn marks_of(&self, viewport: Viewport) -> Marks {
-        self.marks[viewport as usize]
-    }
-
     /// Brings a panel before those that share its place.
     pub fn show(&mut self, panel: Panel) {
         layout::set_visible(&mut self.layout, panel, true);
+    }
+
+    /// Puts the panels into another order.
+    pub fn lay_out(&mut self, layout: Tree<Panel>) {
+        self.layout = layout;
+    }
+
+    /// Where a panel was drawn in the last frame, in points; `None` where it is not shown.
+    pub fn rect_of(&self, panel: Panel) -> Option<egui::Rect> {
+        layout::rect(&self.layout, panel)
     }
 
     /// Whether somebody asked to close the window.
@@ -170,7 +192,9 @@ impl Editor {
         let now = Instant::now();
         self.workbench.tick(now);
         let ctx = ui.ctx().clone();
+        self.dress(&ctx);
         self.tend_code(now, ctx.input(|input| input.focused));
+        self.tend_recovery(now);
         panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
 
@@ -200,7 +224,8 @@ impl Editor {
         panels::gallery::show(self, &ctx);
         panels::palette::show(self, &ctx);
         panels::view_text::show(self, &ctx);
-        panels::code::leaving::show(self, &ctx);
+        panels::leaving::show(self, &ctx);
+        panels::recovery::show(self, &ctx);
         self.follow_dialogs(&ctx);
         panels::saving::show(self, &ctx);
         if let Some(panel) = self.revealed.take() {
@@ -211,13 +236,19 @@ impl Editor {
         self.remember_scene();
         self.remember_arrangement(&ctx);
 
-        let busy = ctx.input(|input| input.pointer.any_down());
+        let held = ctx.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.was_typing = ctx.egui_wants_keyboard_input();
-        if !busy && !self.was_typing {
+        self.workbench.note_dials();
+        self.workbench.note_view(now, held);
+        if !held && !self.was_typing {
             self.workbench.undo.seal();
         }
 
-        let due = [self.workbench.next_due(now), self.code.next_due(now)];
+        let due = [
+            self.workbench.next_due(now),
+            self.code.next_due(now),
+            self.recovery.next_due(now),
+        ];
         if let Some(due) = due.into_iter().flatten().min() {
             ctx.request_repaint_after(due);
         }
@@ -242,6 +273,8 @@ impl Editor {
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
             Action::Redo => _ = workbench.redo(),
+            Action::ViewBack => _ = workbench.view_back(),
+            Action::ViewForth => _ = workbench.view_forth(),
             Action::Tool(tool) => self.viewport.handles.tool = tool,
             Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
             // Out of the walk through the frame first.
@@ -278,7 +311,12 @@ impl Editor {
                     egui::Theme::Dark
                 };
                 ctx.set_theme(other);
+                let kept = self.kept.choose_dark(!dark);
+                self.tell_if_not_kept(kept);
             }
+            Action::LargerText => self.scale_text(Some(LARGER), ctx),
+            Action::SmallerText => self.scale_text(Some(1.0 / LARGER), ctx),
+            Action::UsualText => self.scale_text(None, ctx),
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
             Action::EditScene => self.edit_scene(),
@@ -328,44 +366,11 @@ impl Editor {
         self.opened = None;
     }
 
-    /// Closes the window in the next frame.
-    pub(super) fn quit(&mut self) {
-        self.quit = true;
-    }
-
     /// Opens the files that were dropped onto the window.
     fn take_dropped_files(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         for file in dropped.iter().map(|file| file.path()) {
             self.open_file(file);
-        }
-    }
-
-    /// Keeps how the window is arranged, once somebody has changed that.
-    fn remember_arrangement(&mut self, ctx: &egui::Context) {
-        let (is_input, held) =
-            ctx.input(|input| (!input.events.is_empty(), input.pointer.any_down()));
-        let changes = self.arranged.is_none() || is_input && !held;
-        // What a scene is seen through is known with the scene.
-        if !changes || self.workbench.scenes.shown().is_none() {
-            return;
-        }
-        let was_opened = !self.workbench.second.is_new();
-        let second = was_opened.then(|| Look::of(self.workbench.sight_of(Viewport::Second)));
-        let known = self.arranged.as_ref();
-        if known.is_some_and(|known| {
-            known.panels == self.layout && known.marks == self.marks && known.second == second
-        }) {
-            return;
-        }
-        let now = Arrangement {
-            panels: self.layout.clone(),
-            marks: self.marks,
-            second,
-        };
-        let is_first = self.arranged.replace(now.clone()).is_none();
-        if !is_first && let Err(error) = self.kept.arrange(now) {
-            self.workbench.log.warn(error);
         }
     }
 
@@ -385,6 +390,38 @@ impl Editor {
         {
             self.workbench.log.warn(error);
         }
+    }
+
+    /// Makes text and widgets larger or smaller, or as large as the system says.
+    fn scale_text(&mut self, factor: Option<f32>, ctx: &egui::Context) {
+        let kept = match factor {
+            Some(factor) => self.kept.scale_by(factor),
+            None => self.kept.reset_scale(),
+        };
+        self.tell_if_not_kept(kept);
+        ctx.set_zoom_factor(self.kept.scale);
+    }
+
+    fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
+        if let Err(error) = kept {
+            self.workbench.log.warn(error);
+        }
+    }
+
+    /// Gives a context that is new what somebody chose: a dark window or a light one, and how large text is.
+    fn dress(&mut self, ctx: &egui::Context) {
+        if std::mem::replace(&mut self.is_dressed, true) {
+            return;
+        }
+        if let Some(dark) = self.kept.dark {
+            ctx.set_theme(match dark {
+                true => egui::Theme::Dark,
+                false => egui::Theme::Light,
+            });
+        }
+        // The editor has keys of its own for it, whose choice is kept.
+        ctx.options_mut(|options| options.zoom_with_keyboard = false);
+        ctx.set_zoom_factor(self.kept.scale);
     }
 
     fn select_beside(&mut self, by: isize) {

@@ -8,6 +8,7 @@ use lightbench::assets::files::write_atomic;
 use serde_json::{Map, Value};
 
 use super::arrangement::Arrangement;
+use crate::ui::messages::say;
 
 /// Lines of the console that are kept.
 const MOST_LINES: usize = 200;
@@ -18,8 +19,10 @@ const ARRANGEMENT: &str = "arrangement";
 /// Scenes that are kept.
 const MOST_SCENES: usize = 8;
 
+/// The least and the greatest size of text and widgets.
+const SCALES: (f32, f32) = (0.6, 3.0);
+
 /// What is kept, and where.
-#[derive(Default)]
 pub struct Kept {
     path: Option<PathBuf>,
     /// Whether there was no file yet: the editor starts for the first time.
@@ -30,6 +33,10 @@ pub struct Kept {
     pub scenes: Vec<String>,
     /// The pipelines of number keys from 1, where somebody gave a key to one.
     pub favourites: BTreeMap<usize, String>,
+    /// Whether the window is dark, where somebody chose that.
+    pub dark: Option<bool>,
+    /// How large text and widgets are, to what the system says: 1 as it says.
+    pub scale: f32,
     /// How the window is arranged.
     pub arrangement: Option<Arrangement>,
     /// What other versions of the program have written, and what is not read anew.
@@ -82,7 +89,11 @@ impl Kept {
             _ => BTreeMap::new(),
         };
         let arrangement = others.get(ARRANGEMENT).and_then(Arrangement::read);
+        let dark = others.remove("dark").and_then(|dark| dark.as_bool());
+        let scale = others.remove("scale").and_then(|scale| scale.as_f64());
         Self {
+            dark,
+            scale: (scale.unwrap_or(1.0) as f32).clamp(SCALES.0, SCALES.1),
             is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
@@ -96,6 +107,11 @@ impl Kept {
     /// The folder of texts that are not saved, beside the file.
     pub fn unsaved_folder(&self) -> Option<PathBuf> {
         Some(self.path.as_ref()?.parent()?.join("unsaved"))
+    }
+
+    /// The folder of what somebody works on, beside the file.
+    pub fn recovery_folder(&self) -> Option<PathBuf> {
+        Some(self.path.as_ref()?.parent()?.join("recovery"))
     }
 
     /// Keeps a line of the console.
@@ -136,6 +152,33 @@ impl Kept {
         self.write()
     }
 
+    /// Keeps whether the window is dark.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The choice is there until the program ends.
+    pub fn choose_dark(&mut self, dark: bool) -> Result<(), String> {
+        self.dark = Some(dark);
+        self.write()
+    }
+
+    /// Makes text and widgets larger by a factor, or smaller, within bounds.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The size is there until the program ends.
+    pub fn scale_by(&mut self, factor: f32) -> Result<(), String> {
+        self.scale = (self.scale * factor).clamp(SCALES.0, SCALES.1);
+        self.write()
+    }
+
+    /// Gives text and widgets the size that the system says.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written.
+    pub fn reset_scale(&mut self) -> Result<(), String> {
+        self.scale = 1.0;
+        self.write()
+    }
+
     /// Keeps how the window is arranged.
     ///
     /// # Errors
@@ -155,6 +198,12 @@ impl Kept {
         let mut all = self.others.clone();
         all.insert("console".to_owned(), self.console.clone().into());
         all.insert("scenes".to_owned(), self.scenes.clone().into());
+        if let Some(dark) = self.dark {
+            all.insert("dark".to_owned(), dark.into());
+        }
+        // As text has it: 1.1 and not 1.10000002384.
+        let scale = (f64::from(self.scale) * 1000.0).round() / 1000.0;
+        all.insert("scale".to_owned(), scale.into());
         if !self.favourites.is_empty() {
             let favourites = self.favourites.iter();
             let favourites = favourites.map(|(key, name)| (key.to_string(), name.clone().into()));
@@ -162,9 +211,10 @@ impl Kept {
         }
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
-            format!(
-                "The editor's settings are not kept in {}: {error}",
-                path.display()
+            say!(
+                "kept.the_editor_settings_are_not_kept",
+                path = path.display(),
+                error = error
             )
         };
         if let Some(folder) = path.parent() {

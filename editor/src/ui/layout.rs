@@ -1,8 +1,9 @@
 //! Which panels there are and how they lie.
 
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
-
 use serde::{Deserialize, Serialize};
+
+use crate::ui::messages::say;
 
 use super::workbench::viewports::Viewport;
 
@@ -47,7 +48,7 @@ pub enum Panel {
 }
 
 impl Panel {
-    /// All.
+    /// All of them.
     pub const ALL: [Self; 17] = [
         Self::Viewport,
         Self::Second,
@@ -73,21 +74,21 @@ impl Panel {
         match self {
             Self::Viewport => Viewport::First.title(),
             Self::Second => Viewport::Second.title(),
-            Self::Targets => "Targets",
-            Self::Pixel => "Pixel",
-            Self::Passes => "Passes",
-            Self::Pipeline => "Pipeline",
-            Self::Pipelines => "All pipelines",
-            Self::Scene => "Scene",
-            Self::Entities => "Entities",
-            Self::Log => "Log",
-            Self::Console => "Console",
-            Self::Actions => "Actions",
-            Self::Plots => "Plots",
-            Self::History => "History",
-            Self::Compare => "Compare",
-            Self::Notebook => "Notebook",
-            Self::Code => "Code",
+            Self::Targets => say!("layout.targets"),
+            Self::Pixel => say!("layout.pixel"),
+            Self::Passes => say!("layout.passes"),
+            Self::Pipeline => say!("layout.pipeline"),
+            Self::Pipelines => say!("layout.all_pipelines"),
+            Self::Scene => say!("layout.scene"),
+            Self::Entities => say!("layout.entities"),
+            Self::Log => say!("layout.log"),
+            Self::Console => say!("layout.console"),
+            Self::Actions => say!("layout.actions"),
+            Self::Plots => say!("layout.plots"),
+            Self::History => say!("layout.history"),
+            Self::Compare => say!("layout.compare"),
+            Self::Notebook => say!("layout.notebook"),
+            Self::Code => say!("layout.code"),
         }
     }
 }
@@ -146,6 +147,32 @@ pub fn first() -> Tree<Panel> {
     set_visible(&mut tree, Panel::Code, false);
     set_visible(&mut tree, Panel::Second, false);
     tree
+}
+
+/// All panels at once, beside each other, so that none hides another.
+pub fn all() -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let panes = Panel::ALL.map(|panel| tiles.insert_pane(panel));
+    let root = tiles.insert_grid_tile(panes.to_vec());
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// The picture at the left and one panel at its right.
+pub fn beside(panel: Panel) -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let picture = tiles.insert_pane(Panel::Viewport);
+    let pane = tiles.insert_pane(panel);
+    let root = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(picture, 0.5), (pane, 0.5)],
+    );
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// Where a panel was drawn in the last frame, in points.
+pub fn rect(tree: &Tree<Panel>, panel: Panel) -> Option<egui::Rect> {
+    tree.tiles.rect(tree.tiles.find_pane(&panel)?)
 }
 
 fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {

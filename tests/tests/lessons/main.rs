@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod figures;
+mod mutants;
 mod texts;
 mod variants;
 

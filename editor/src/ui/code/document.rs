@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use lightbench::assets::files::{FileError, Files, Origin, decode_text, write_atomic};
 
+use crate::ui::messages::say;
+
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// How a file's lines end and begin on the disk. In the editor they end with LF.
@@ -65,10 +67,10 @@ pub enum Outside {
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     /// Nobody has chosen yet between the text in the editor and that on the disk.
-    #[error("{0} changed outside the editor: choose which text to keep")]
+    #[error("{}", say!("code.changed_outside_the_editor", path = .0))]
     Conflict(String),
     /// The file is marked as not to be written.
-    #[error("{} is read-only; change its permissions, then save again", .0.display())]
+    #[error("{}", say!("code.is_read_only", path = .0.display()))]
     ReadOnly(PathBuf),
     /// What the disk says.
     #[error(transparent)]

@@ -2,6 +2,7 @@
 
 use lightbench::assets::files::{Files, Origin};
 
+use crate::ui::messages::say;
 use crate::ui::workbench::library::Library;
 
 /// A part of the gallery.
@@ -22,9 +23,9 @@ impl Shelf {
     /// The word on its tab.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Scenes => "Scenes",
-            Self::Pipelines => "Pipelines",
-            Self::Examples => "Examples",
+            Self::Scenes => say!("gallery.scenes"),
+            Self::Pipelines => say!("gallery.pipelines"),
+            Self::Examples => say!("gallery.examples"),
         }
     }
 }

@@ -17,6 +17,7 @@ use lightbench::render::GpuOptions;
 use self::draw::Studio;
 use super::cards::{Card, Opens};
 use super::kept_pictures::{self, Picture};
+use crate::ui::messages::say;
 use crate::ui::workbench::Wake;
 
 mod draw;
@@ -101,7 +102,7 @@ impl Thumbnails {
     pub fn of(&mut self, ctx: &Context, card: &Card) -> &State {
         let state = self.states.entry(card.path.clone()).or_insert_with(|| {
             if card.opens == Opens::Script {
-                return State::None("an experiment".to_owned());
+                return State::None(say!("gallery.an_experiment").to_owned());
             }
             self.queue.push(Order {
                 path: card.path.clone(),

@@ -2,7 +2,8 @@
 //!
 //! [`say!`] gives the text of a key, and fills in what the text names in braces; [`message!`] marks a key
 //! that is looked up later with [`text`], as in tables of actions. Whoever translates the editor writes
-//! one file, and whoever reads code sees what is said by its key.
+//! one file, and whoever reads code sees what is said by its key. Errors of the engine, which the command
+//! line tells too, and documents that the editor writes have their words where they arise.
 
 #[cfg(test)]
 mod tests;

@@ -133,3 +133,102 @@ fn values_stand_where_the_text_names_them() {
     // A key that is unknown is shown itself.
     assert_eq!(filled("nobody.says_this", &[]), "nobody.says_this");
 }
+
+/// The texts in quotes of a file, each with its line and what stands before it, without those of
+/// comments, attributes' and tests' own.
+fn literals(code: &str) -> Vec<(usize, String, String)> {
+    let code = code.split("#[cfg(test)]\nmod tests {").next().unwrap();
+    let letters: Vec<char> = code.chars().collect();
+    let is = |at: usize, what: &str| what.chars().zip(&letters[at..]).all(|(a, b)| a == *b);
+    let (mut found, mut at, mut line) = (Vec::new(), 0, 1);
+    while at < letters.len() {
+        let start = at;
+        if is(at, "//") {
+            while at < letters.len() && letters[at] != '\n' {
+                at += 1;
+            }
+        } else if is(at, "'\"'") {
+            at += 3;
+        } else if is(at, "'\\\"'") || is(at, "'\\\\'") {
+            at += 4;
+        } else if letters[at] == '"' {
+            at += 1;
+            while letters[at] != '"' {
+                at += if letters[at] == '\\' { 2 } else { 1 };
+            }
+            at += 1;
+            let text: String = letters[start + 1..at - 1].iter().collect();
+            let before: String = letters[start.saturating_sub(40)..start].iter().collect();
+            found.push((line, before.trim_end().to_owned(), text));
+        } else {
+            at += 1;
+        }
+        line += letters[start..at]
+            .iter()
+            .filter(|one| **one == '\n')
+            .count();
+    }
+    found
+}
+
+/// Two words beside each other.
+fn is_words(text: &str) -> bool {
+    let plain = |word: &&str| word.len() > 1 && word.chars().all(|one| one.is_alphabetic());
+    let words: Vec<bool> = text.split(' ').map(|word| plain(&word)).collect();
+    words.windows(2).any(|pair| pair[0] && pair[1])
+}
+
+/// What is said to whoever started the program, and documents that the editor writes.
+const OTHERS: [&str; 6] = [
+    "ui/bench/",
+    "ui/surface.rs",
+    "ui/window.rs",
+    "ui/messages/",
+    "notebook/entry.rs",
+    "notebook/markdown.rs",
+];
+
+/// Calls whose words nobody reads: names of widgets, and what a broken program says.
+const CALLS: [&str; 9] = [
+    "Id::unique(",
+    "Id::new(",
+    "Grid::new(",
+    "push_id(",
+    "panic!(",
+    "expect(",
+    "label: Some(",
+    "tracing::error!(",
+    "tracing::warn!(",
+];
+
+/// Names, not words: of a feature, of commands, and of what a change replaces in the history.
+const NAMES: [&str; 5] = [
+    "pipeline statistics",
+    "lightbench run ",
+    "lightbench compare {} --warmup {} --frames {} --processes {} --seconds {} --out {}",
+    "pipeline parameter {parameter}",
+    "scene parameter {parameter}",
+];
+
+#[test]
+fn no_text_stands_outside_the_catalogue() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/ui");
+    let mut files = Vec::new();
+    sources(&root, &mut files);
+    let mut wrong = Vec::new();
+    for file in files {
+        let name = file.to_str().unwrap().replace('\\', "/");
+        if OTHERS.iter().any(|other| name.contains(other)) {
+            continue;
+        }
+        let code = std::fs::read_to_string(&file).unwrap();
+        for (line, before, text) in literals(&code) {
+            let known =
+                CALLS.iter().any(|call| before.ends_with(call)) || NAMES.contains(&text.as_str());
+            if is_words(&text) && !known {
+                wrong.push(format!("{name}:{line}: {text:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -3,6 +3,7 @@
 use egui::{RichText, ScrollArea, Ui};
 
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::history::Deed;
 
@@ -11,18 +12,17 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let history = &mut editor.workbench.history;
     let count = history.deeds().len();
     if count == 0 {
-        let text = "What you change in the editor appears here as the line of a script that does the \
-                    same.";
+        let text = say!("actions.what_you_change_in_the_editor");
         ui.label(RichText::new(text).weak());
         return;
     }
     let mut clear = false;
     ui.horizontal(|ui| {
-        if ui.small_button("Copy all").clicked() {
+        if ui.small_button(say!("actions.copy_all")).clicked() {
             let all: Vec<String> = history.deeds().map(Deed::copied).collect();
             ui.ctx().copy_text(all.join("\n"));
         }
-        clear = ui.small_button("Clear").clicked();
+        clear = ui.small_button(say!("actions.clear")).clicked();
     });
     let palette = Palette::of(ui);
     let row = ui.spacing().interact_size.y;
@@ -39,7 +39,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             ui.push_id(index, |ui| {
                 ui.horizontal(|ui| {
                     ui.set_height(row);
-                    if ui.small_button("Copy").clicked() {
+                    if ui.small_button(say!("actions.copy")).clicked() {
                         ui.ctx().copy_text(deed.copied());
                     }
                     let about = format!("{}: {}", deed.script.name(), deed.what);

@@ -8,6 +8,7 @@ use egui::{
 use crate::ui::editor::Editor;
 use crate::ui::gallery::cards::{Card, Opens, Shelf};
 use crate::ui::gallery::thumbnails::State;
+use crate::ui::messages::say;
 
 /// Points of a picture.
 const PICTURE: egui::Vec2 = vec2(224.0, 126.0);
@@ -29,7 +30,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     }
     let mut open = true;
     let mut wish = None;
-    Window::new("Gallery")
+    Window::new(say!("gallery.gallery"))
         .open(&mut open)
         .collapsible(false)
         .default_size([780.0, 560.0])
@@ -73,17 +74,17 @@ fn contents(editor: &mut Editor, ui: &mut Ui) -> Option<Wish> {
             }
         }
         ui.separator();
-        let label = ui.label("Search");
+        let label = ui.label(say!("gallery.search"));
         let field = TextEdit::singleline(&mut editor.gallery.filter).desired_width(160.0);
         ui.add(field).labelled_by(label.id);
     });
     if editor.gallery.shelf == Shelf::Pipelines {
-        ui.weak("All draw the same picture. These show how many lights each computes for a pixel.");
+        ui.weak(say!("gallery.all_draw_the_same_picture_these"));
     }
     ui.separator();
     let cards = editor.gallery.shown();
     if cards.is_empty() {
-        ui.weak("Nothing is called so.");
+        ui.weak(say!("gallery.nothing_is_called_so"));
     }
     let has_project = editor.workbench.files().project().is_some();
     let columns = (ui.available_width() / (CARD.x + 8.0)).floor().max(1.0) as usize;
@@ -134,10 +135,10 @@ fn one(editor: &mut Editor, ui: &mut Ui, card: &Card, has_project: bool) -> Opti
         .on_hover_text(&card.about);
     ui.advance_cursor_after_rect(about);
     let button = if card.is_own {
-        ui.small_button("Edit")
+        ui.small_button(say!("gallery.edit"))
     } else {
-        let button = egui::Button::new("Copy into the project").small();
-        let about = "Open a project first: File, Open a project";
+        let button = egui::Button::new(say!("gallery.copy_into_the_project")).small();
+        let about = say!("gallery.open_a_project_first_file_open");
         ui.add_enabled(has_project, button)
             .on_disabled_hover_text(about)
     };
@@ -164,6 +165,6 @@ fn paint(editor: &mut Editor, ui: &Ui, card: &Card, place: Rect) {
             painter.image(texture.id(), place, whole, Color32::WHITE);
         }
         State::None(why) => note(why.lines().next().unwrap_or_default()),
-        State::Waiting | State::Drawn(_) => note("is being drawn"),
+        State::Waiting | State::Drawn(_) => note(say!("gallery.is_being_drawn")),
     }
 }

@@ -8,6 +8,7 @@ use lightbench::render::heat_map::{self, HeatMap};
 
 use super::widgets;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// The choice in the toolbar.
@@ -17,10 +18,13 @@ pub fn choose(editor: &mut Editor, ui: &mut Ui) {
         let value = slot.settings.get(heat_map::PARAMETER)?.to_string();
         HeatMap::NAMES.iter().find(|(name, _)| *name == value)
     });
-    let title = set.map_or("Picture", |(_, map)| map.title());
+    let title = set.map_or(say!("heat_map.picture"), |(_, map)| map.title());
     let mut wanted = None;
-    widgets::combo(ui, "Show", title, 110.0, |ui| {
-        if ui.selectable_label(set.is_none(), "Picture").clicked() {
+    widgets::combo(ui, say!("heat_map.show"), title, 110.0, |ui| {
+        if ui
+            .selectable_label(set.is_none(), say!("heat_map.picture"))
+            .clicked()
+        {
             wanted = Some("off");
         }
         for (name, map) in HeatMap::NAMES {
@@ -74,7 +78,7 @@ pub fn legend(ui: &Ui, rect: Rect, desc: &PipelineDesc) {
         painter.rect_filled(part, 0.0, Color32::from_rgb(r, g, b));
     }
     let (top, bottom) = (bar.top() - 3.0, bar.bottom() + 3.0);
-    let title = format!("{} (white: more than {most})", map.title());
+    let title = say!("heat_map.white_more_than", title = map.title(), most = most);
     text(bar.center().x, top, egui::Align2::CENTER_BOTTOM, title);
     text(bar.left(), bottom, egui::Align2::LEFT_TOP, "0".to_owned());
     let half = format!("{}", most / 2.0);

@@ -7,6 +7,7 @@ use lightbench::render::inspect::{BINS, Inspection, Measured};
 
 use super::widgets::{count, short_count};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 
 /// How the histogram is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,9 +45,12 @@ fn height(value: u32, most: u32, logarithmic: bool) -> f32 {
 pub fn show(editor: &mut Editor, ui: &mut Ui, request: &Inspection, now: Instant) {
     let options = &mut editor.targets.histogram;
     ui.horizontal(|ui| {
-        ui.checkbox(&mut options.on, "Histogram");
+        ui.checkbox(&mut options.on, say!("histogram.histogram"));
         if options.on {
-            ui.checkbox(&mut options.logarithmic, "Logarithmic counts");
+            ui.checkbox(
+                &mut options.logarithmic,
+                say!("histogram.logarithmic_counts"),
+            );
         }
         if editor.workbench.measuring.is_waiting() {
             ui.spinner();
@@ -60,7 +64,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, request: &Inspection, now: Instant
         return;
     }
     let Some(measured) = editor.workbench.measured() else {
-        ui.label(RichText::new("The next frame is measured.").weak());
+        ui.label(RichText::new(say!("histogram.the_next_frame_is_measured")).weak());
         return;
     };
     bars(ui, measured, options.logarithmic);
@@ -70,7 +74,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, request: &Inspection, now: Instant
 fn bars(ui: &mut Ui, measured: &Measured, logarithmic: bool) {
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Histogram"));
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Image, true, say!("histogram.histogram"))
+    });
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
     let all = measured.shown().flat_map(|(_, channel)| &channel.bins);
@@ -99,9 +105,18 @@ fn bars(ui: &mut Ui, measured: &Measured, logarithmic: bool) {
 fn bin_in_words(measured: &Measured, bin: usize) -> String {
     let request = &measured.request;
     let end = |bin: usize| request.low + (request.high - request.low) * bin as f32 / BINS as f32;
-    let mut text = format!("{:.4} to {:.4}", end(bin), end(bin + 1));
+    let mut text = say!(
+        "histogram.bin_range",
+        least = format_args!("{:.4}", end(bin)),
+        greatest = format_args!("{:.4}", end(bin + 1))
+    );
     for (index, channel) in measured.shown() {
-        let name = ["red", "green", "blue", "alpha"][index.min(3)];
+        let name = [
+            say!("histogram.red"),
+            say!("histogram.green"),
+            say!("histogram.blue"),
+            say!("histogram.alpha"),
+        ][index.min(3)];
         let value = channel.bins.get(bin).copied().unwrap_or(0);
         text += &format!("\n{name}: {}", count(value.into()));
     }
@@ -110,8 +125,12 @@ fn bin_in_words(measured: &Measured, bin: usize) -> String {
 
 fn words(ui: &mut Ui, measured: &Measured, request: &Inspection) {
     let range = match measured.range() {
-        Some([least, most]) => format!("least {least:.5}  greatest {most:.5}"),
-        None => "no finite value".to_owned(),
+        Some([least, most]) => say!(
+            "histogram.least_greatest",
+            least = format_args!("{least:.5}"),
+            most = format_args!("{most:.5}")
+        ),
+        None => say!("histogram.no_finite_value").to_owned(),
     };
     let sum = |of: fn(&lightbench::render::inspect::ChannelMeasure) -> u32| -> u64 {
         measured
@@ -121,19 +140,21 @@ fn words(ui: &mut Ui, measured: &Measured, request: &Inspection) {
     };
     let mut parts = vec![range];
     for (number, what) in [
-        (sum(|channel| channel.below), "below"),
-        (sum(|channel| channel.above), "above"),
-        (sum(|channel| channel.invalid), "no numbers"),
-        (u64::from(measured.empty), "not drawn to"),
+        (sum(|channel| channel.below), say!("histogram.below")),
+        (sum(|channel| channel.above), say!("histogram.above")),
+        (sum(|channel| channel.invalid), say!("histogram.no_numbers")),
+        (u64::from(measured.empty), say!("histogram.not_drawn_to")),
     ] {
         if number > 0 {
             parts.push(format!("{} {what}", short_count(number)));
         }
     }
     let text = RichText::new(parts.join("  ")).monospace().small();
-    let about = format!(
-        "Counted between {} and {} in {BINS} equal parts.",
-        request.low, request.high
+    let about = say!(
+        "histogram.counted_between_and_in_equal_parts",
+        low = request.low,
+        high = request.high,
+        bins = BINS
     );
     ui.label(text).on_hover_text(about);
 }

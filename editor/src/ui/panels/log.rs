@@ -4,6 +4,7 @@ use egui::{Rect, RichText, ScrollArea, Ui, pos2};
 
 use super::widgets;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::log::Level;
 
@@ -43,13 +44,15 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 }
                 ui.label(RichText::new(&line.text).color(color));
                 if line.count > 1 {
-                    ui.label(RichText::new(format!("{} times", line.count)).weak());
+                    ui.label(RichText::new(say!("log.times", count = line.count)).weak());
                 }
             });
         }
     });
     if count > 0 {
-        clear = ui.put(button, egui::Button::new("Clear").small()).clicked();
+        clear = ui
+            .put(button, egui::Button::new(say!("log.clear")).small())
+            .clicked();
     }
     if clear {
         log.clear();

@@ -2,9 +2,11 @@
 
 use egui::{Button, MenuBar, ScrollArea, Ui};
 
-use crate::ui::actions::{Action, Entry, MENUS, key_text};
+use crate::ui::actions::{Action, Entry, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
+use crate::ui::menus::MENUS;
+use crate::ui::messages::say;
 use crate::ui::messages::{message, text};
 use crate::ui::panels::palette::scene_title;
 use crate::ui::panels::pipelines::{favourites, key_of};
@@ -65,7 +67,7 @@ fn entries(editor: &mut Editor, ui: &mut Ui, groups: &[&[Entry]]) {
 /// The scenes that were shown last.
 fn scenes_of_late(editor: &mut Editor, ui: &mut Ui) {
     let mut wanted = None;
-    ui.menu_button("Recent scenes", |ui| {
+    ui.menu_button(say!("menu.recent_scenes"), |ui| {
         for name in &editor.kept.scenes {
             if ui.button(scene_title(editor, name)).clicked() {
                 wanted = Some(name.clone());

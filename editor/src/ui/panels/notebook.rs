@@ -7,6 +7,7 @@ use egui::{
 
 use super::widgets::ms;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::notebook::{EXPORT, Entry, Kept, NOTEBOOK};
 
@@ -48,8 +49,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     };
     panel.pictures.retain(|(name, _)| is_known(name));
     if notebook.entries().is_empty() {
-        let text = "Keep this measurement saves the picture, the views, the numbers and your note in the \
-                    project. Entries appear here.";
+        let text = say!("notebook.keep_this_measurement_saves_the_picture");
         ui.label(RichText::new(text).weak());
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -67,17 +67,25 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 fn top(editor: &mut Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
     let busy = editor.workbench.notebook.is_busy();
     ui.horizontal_wrapped(|ui| {
-        let label = ui.label("Note");
+        let label = ui.label(say!("notebook.note"));
         let field = TextEdit::singleline(&mut editor.notebook.note)
             .desired_width(240.0)
-            .hint_text("what it shows");
+            .hint_text(say!("notebook.what_it_shows"));
         let field = ui.add(field).labelled_by(label.id);
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        if ui.button("Keep this measurement").clicked() || entered {
+        if ui.button(say!("notebook.keep_this_measurement")).clicked() || entered {
             *wish = Some(Wish::Keep);
         }
-        let about = format!("Writes {NOTEBOOK}/{EXPORT}, with links to the pictures beside it");
-        if ui.button("Export Markdown").on_hover_text(about).clicked() {
+        let about = say!(
+            "notebook.writes_with_links_to_the_pictures",
+            notebook = NOTEBOOK,
+            export = EXPORT
+        );
+        if ui
+            .button(say!("notebook.export_markdown"))
+            .on_hover_text(about)
+            .clicked()
+        {
             *wish = Some(Wish::Export);
         }
         if busy {
@@ -106,7 +114,7 @@ fn one(panel: &mut NotebookPanel, ui: &mut Ui, kept: &Kept, wish: &mut Option<Wi
                 handle
             })
         });
-        let title = format!("Go to the view of {name}");
+        let title = say!("notebook.go_to_the_view_of", name = name);
         let clicked = match picture {
             Some(handle) => {
                 let image = Image::new(&handle)
@@ -116,7 +124,10 @@ fn one(panel: &mut NotebookPanel, ui: &mut Ui, kept: &Kept, wish: &mut Option<Wi
                 button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &title));
                 button.on_hover_text(&title).clicked()
             }
-            None => ui.button("Go to the view").on_hover_text(&title).clicked(),
+            None => ui
+                .button(say!("notebook.go_to_the_view"))
+                .on_hover_text(&title)
+                .clicked(),
         };
         if clicked {
             *wish = Some(Wish::Restore(name.clone()));
@@ -125,18 +136,19 @@ fn one(panel: &mut NotebookPanel, ui: &mut Ui, kept: &Kept, wish: &mut Option<Wi
             ui.horizontal_wrapped(|ui| {
                 ui.label(RichText::new(&entry.time).strong());
                 ui.label(RichText::new(&entry.shown).weak());
-                if ui.small_button("Copy view").clicked() {
+                if ui.small_button(say!("notebook.copy_view")).clicked() {
                     ui.ctx().copy_text(entry.view.clone());
                 }
-                if ui.small_button("Delete").clicked() {
+                if ui.small_button(say!("notebook.delete")).clicked() {
                     panel.deleting = Some(name.clone());
                 }
-                if kept.unsaved.is_some() && ui.small_button("Save again").clicked() {
+                if kept.unsaved.is_some() && ui.small_button(say!("notebook.save_again")).clicked()
+                {
                     *wish = Some(Wish::SaveAgain(name.clone()));
                 }
             });
             if let Some(why) = &kept.unsaved {
-                let text = format!("Only in memory: {why}");
+                let text = say!("notebook.only_in_memory", why = why);
                 ui.label(RichText::new(text).color(Palette::of(ui).error));
             }
             note(panel, ui, entry, wish);
@@ -155,10 +167,10 @@ fn note(panel: &mut NotebookPanel, ui: &mut Ui, entry: &Entry, wish: &mut Option
     let field = TextEdit::multiline(&mut text)
         .desired_rows(1)
         .desired_width(f32::INFINITY)
-        .hint_text("no note");
+        .hint_text(say!("notebook.no_note"));
     let field = ui.add(field);
     field.widget_info(|| {
-        let label = format!("Note of {}", entry.name);
+        let label = say!("notebook.note_of", name = entry.name);
         egui::WidgetInfo::labeled(egui::Role::MultilineTextInput, true, label)
     });
     if field.has_focus() {
@@ -176,18 +188,21 @@ fn numbers(ui: &mut Ui, entry: &Entry) {
         } else {
             format!(" ({})", costs.settings.join(", "))
         };
-        let text = format!(
-            "{side}: {}{settings}, GPU {} ms, CPU {} ms",
-            costs.title,
-            ms(costs.gpu.median_ms),
-            ms(costs.cpu.median_ms)
+        let text = say!(
+            "notebook.gpu_ms_cpu_ms",
+            side = side,
+            title = costs.title,
+            settings = settings,
+            gpu_ms = ms(costs.gpu.median_ms),
+            cpu_ms = ms(costs.cpu.median_ms)
         );
         ui.label(RichText::new(text).small());
     }
     if let Some(difference) = &entry.difference {
-        let text = format!(
-            "FLIP {:.5} in the mean, largest difference {} / 255",
-            difference.flip_mean, difference.max_steps
+        let text = say!(
+            "notebook.flip_in_the_mean_largest_difference",
+            flip_mean = format_args!("{:.5}", difference.flip_mean),
+            max_steps = difference.max_steps
         );
         ui.label(RichText::new(text).small());
     }
@@ -206,17 +221,21 @@ fn confirm(panel: &mut NotebookPanel, ui: &Ui, wish: &mut Option<Wish>) {
     };
     let modal = Modal::new(Id::unique("delete an entry")).show(ui.ctx(), |ui| {
         ui.set_width(360.0);
-        ui.label(format!("Delete {name} and its picture from the project?"));
+        ui.label(say!(
+            "notebook.delete_and_its_picture_from_the",
+            name = name
+        ));
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             let error = Palette::of(ui).error;
             let delete =
-                egui::Button::new(RichText::new("Delete it").color(Color32::WHITE)).fill(error);
+                egui::Button::new(RichText::new(say!("notebook.delete_it")).color(Color32::WHITE))
+                    .fill(error);
             if ui.add(delete).clicked() {
                 *wish = Some(Wish::Delete(name.clone()));
                 panel.deleting = None;
             }
-            if ui.button("Keep it").clicked() {
+            if ui.button(say!("notebook.keep_it")).clicked() {
                 panel.deleting = None;
             }
         });
@@ -230,11 +249,11 @@ fn fulfil(editor: &mut Editor, wish: Wish) {
     let said = match wish {
         Wish::Keep => return keep(editor),
         Wish::Export => match editor.workbench.export_notebook() {
-            Ok(path) => Ok(format!("Written: {}", path.display())),
+            Ok(path) => Ok(say!("notebook.written", path = path.display())),
             Err(error) => Err(error),
         },
         Wish::Restore(name) => match editor.workbench.restore(&name) {
-            Ok(()) => Ok(format!("The view of {name}.")),
+            Ok(()) => Ok(say!("notebook.the_view_of", name = name)),
             Err(error) => Err(error),
         },
         Wish::Delete(name) => return editor.workbench.delete_entry(&name),

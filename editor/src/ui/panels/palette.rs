@@ -5,6 +5,7 @@ use egui::{Button, Context, Id, Key, Modal, Modifiers, ScrollArea, TextEdit, Ui}
 use super::pipelines::{favourites, key_of};
 use crate::ui::actions::{Action, entries, key_text};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 
 /// The palette while it is open.
 #[derive(Default)]
@@ -43,17 +44,17 @@ fn all(editor: &Editor, ctx: &Context) -> Vec<Line> {
     let library = &editor.workbench.library;
     let favourites = favourites(editor);
     let recent = editor.kept.scenes.iter().map(|name| Line {
-        title: format!("Recent scene: {}", scene_title(editor, name)),
+        title: say!("palette.recent_scene", name = scene_title(editor, name)),
         key: String::new(),
         deed: Deed::Scene(name.clone()),
     });
     let scenes = library.scenes.iter().map(|entry| Line {
-        title: format!("Scene: {}", entry.title),
+        title: say!("palette.scene", title = entry.title),
         key: String::new(),
         deed: Deed::Scene(entry.name.clone()),
     });
     let pipelines = library.pipelines.iter().map(|entry| Line {
-        title: format!("Pipeline: {}", entry.title),
+        title: say!("palette.pipeline", title = entry.title),
         key: key_of(&favourites, &entry.name).map_or_else(String::new, |key| key.to_string()),
         deed: Deed::Pipeline(entry.name.clone()),
     });
@@ -96,7 +97,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let escaped = press(Key::Escape);
     let modal = Modal::new(Id::unique("palette")).show(ctx, |ui| {
         ui.set_width(430.0);
-        let label = ui.label("Find an action, a scene or a pipeline");
+        let label = ui.label(say!("palette.find_an_action_a_scene_or"));
         let field = TextEdit::singleline(&mut palette.typed).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);
         field.request_focus();
@@ -124,7 +125,7 @@ fn list(ui: &mut Ui, lines: &[Line], at: usize, follow: bool) -> Option<usize> {
     let area = ScrollArea::vertical().max_height(340.0).auto_shrink(false);
     area.show(ui, |ui| {
         if lines.is_empty() {
-            ui.weak("Nothing is called so.");
+            ui.weak(say!("palette.nothing_is_called_so"));
         }
         ui.spacing_mut().item_spacing.y = 1.0;
         for (index, line) in lines.iter().enumerate() {

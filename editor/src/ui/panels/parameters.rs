@@ -6,6 +6,7 @@ use lightbench::world::{Entity, Name};
 
 use super::widgets::words;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::workbench::fields::{Field, FieldKind};
 
 /// What somebody did to a field.
@@ -32,7 +33,7 @@ pub fn pipeline(editor: &mut Editor, ui: &mut Ui) {
         return;
     };
     let Some(desc) = slot.desc() else {
-        ui.label(RichText::new("The pipeline is not built yet.").weak());
+        ui.label(RichText::new(say!("parameters.the_pipeline_is_not_built_yet")).weak());
         return;
     };
     let description = desc.description.clone();
@@ -55,7 +56,7 @@ pub fn scene(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let scenes = &workbench.scenes;
     let Some(scene) = scenes.scene() else {
-        ui.label(RichText::new("The scene is not loaded yet.").weak());
+        ui.label(RichText::new(say!("parameters.the_scene_is_not_loaded_yet")).weak());
         return;
     };
     let settings = scenes.settings().cloned().unwrap_or_default();
@@ -102,11 +103,11 @@ fn behaviours(scene: &Scene) -> Vec<(Entity, String, Vec<Field>)> {
         .take(MOST_BEHAVIOURS)
         .map(|behaviour| {
             let name: Option<Name> = scene.world.get(behaviour.entity);
-            let name = name.map_or_else(|| "(no name)".to_owned(), |name| name.text);
+            let name = name.map_or_else(|| say!("parameters.no_name").to_owned(), |name| name.text);
             let file = behaviour.path.rsplit('/').next().unwrap_or_default();
             let kind = file.trim_end_matches(".rhai");
             let stopped = if behaviour.stopped {
-                ", stopped by an error"
+                say!("parameters.stopped_by_an_error")
             } else {
                 ""
             };
@@ -128,7 +129,7 @@ fn list(ui: &mut Ui, description: &str, fields: &[Field]) -> Option<(String, Cha
         ui.add_space(4.0);
     }
     if fields.is_empty() {
-        ui.label(RichText::new("There are no parameters.").weak());
+        ui.label(RichText::new(say!("parameters.there_are_no_parameters")).weak());
     }
     rows(ui, fields)
 }
@@ -146,9 +147,13 @@ fn rows(ui: &mut Ui, fields: &[Field]) -> Option<(String, Change)> {
 fn row(ui: &mut Ui, field: &Field) -> Option<Change> {
     let mut change = None;
     let about = if field.description.is_empty() {
-        format!("Name in scripts: {}", field.name)
+        say!("parameters.name_in_scripts", name = field.name)
     } else {
-        format!("{}\nName in scripts: {}", field.description, field.name)
+        say!(
+            "parameters.description_and_name",
+            description = field.description,
+            name = field.name
+        )
     };
     ui.horizontal(|ui| {
         let width = (ui.available_width() * 0.36).clamp(90.0, 170.0);
@@ -164,8 +169,10 @@ fn row(ui: &mut Ui, field: &Field) -> Option<Change> {
         let id = label.inner.id;
         change = widget(ui, field, id);
         if field.is_changed() {
-            let text = format!("Back to {}", field.default);
-            let reset = ui.small_button("Reset").on_hover_text(text);
+            let text = say!("parameters.back_to", default = field.default);
+            let reset = ui
+                .small_button(say!("parameters.reset"))
+                .on_hover_text(text);
             if reset.clicked() {
                 change = Some(Change::Reset);
             }

@@ -9,6 +9,7 @@ use lightbench::render::PassStatistics;
 use super::pass_graph::{self, PassGraph};
 use super::widgets::{MISSING, bytes, count, ms, short_count, sparkline};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// How often the numbers change: often enough to follow, seldom enough to read.
@@ -80,7 +81,7 @@ impl PassesPanel {
             Some((pass.unplaced_in_words()?, Some(cost.unplaced_lights)))
         }));
         if statistics.unconfined_lights > 0 {
-            let about = "Lights that shine beyond their clip volumes".to_owned();
+            let about = say!("passes.lights_that_shine_beyond_their_clip").to_owned();
             self.counters
                 .push((about, Some(statistics.unconfined_lights)));
         }
@@ -104,8 +105,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     editor.passes.refresh(&mut editor.workbench, now);
     ui.horizontal(|ui| {
         let as_graph = &mut editor.passes.as_graph;
-        ui.selectable_value(as_graph, false, "List");
-        ui.selectable_value(as_graph, true, "Graph");
+        ui.selectable_value(as_graph, false, say!("passes.list"));
+        ui.selectable_value(as_graph, true, say!("passes.graph"));
     });
     if editor.passes.as_graph {
         pass_graph::show(editor, ui);
@@ -122,8 +123,8 @@ fn list(editor: &Editor, ui: &mut Ui) {
     let why = |feature: &str| {
         let lost = missing.iter().find(|text| text.starts_with(feature));
         lost.map_or_else(
-            || "Not measured yet.".to_owned(),
-            |text| format!("This adapter lacks {text}."),
+            || say!("passes.not_measured_yet").to_owned(),
+            |text| say!("passes.this_adapter_lacks", text = text),
         )
     };
     let (no_time, no_count) = (why("timestamp"), why("pipeline statistics"));
@@ -144,29 +145,38 @@ fn list(editor: &Editor, ui: &mut Ui) {
             table = table.column(Column::exact(width));
         }
         let titles = [
-            ("Pass", "In the order in which they run."),
             (
-                "",
-                "GPU time of the last frames, to the slowest pass's height.",
+                say!("passes.pass"),
+                say!("passes.in_the_order_in_which_they"),
             ),
-            ("GPU ms", "Time on the GPU, median of the last frames."),
+            ("", say!("passes.gpu_time_of_the_last_frames")),
             (
-                "CPU ms",
-                "Time to record the pass, median of the last frames.",
-            ),
-            ("Calls", "Draw calls, or dispatches."),
-            (
-                "Triangles",
-                "Sent to the rasteriser, before clipping and culling.",
-            ),
-            ("Fragments", "Fragments shaded, as the driver counts them."),
-            (
-                "Read",
-                "Bytes read from targets: modelled from formats and sizes.",
+                say!("passes.gpu_ms"),
+                say!("passes.time_on_the_gpu_median_of"),
             ),
             (
-                "Written",
-                "Bytes written to targets: modelled from formats and sizes.",
+                say!("passes.cpu_ms"),
+                say!("passes.time_to_record_the_pass_median"),
+            ),
+            (
+                say!("passes.calls"),
+                say!("passes.draw_calls_or_dispatches"),
+            ),
+            (
+                say!("passes.triangles"),
+                say!("passes.sent_to_the_rasteriser_before_clipping"),
+            ),
+            (
+                say!("passes.fragments"),
+                say!("passes.fragments_shaded_as_the_driver_counts"),
+            ),
+            (
+                say!("passes.read"),
+                say!("passes.bytes_read_from_targets_modelled_from"),
+            ),
+            (
+                say!("passes.written"),
+                say!("passes.bytes_written_to_targets_modelled_from"),
             ),
         ];
         table
@@ -193,7 +203,7 @@ fn list(editor: &Editor, ui: &mut Ui) {
                         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                             let name = RichText::new(&row.name);
                             if row.cost.dropped {
-                                let why = "Left out: nobody uses what it writes.";
+                                let why = say!("passes.left_out_nobody_uses_what_it");
                                 ui.label(name.weak()).on_hover_text(why);
                             } else {
                                 ui.label(name).on_hover_text(row.kind);
@@ -221,7 +231,7 @@ fn list(editor: &Editor, ui: &mut Ui) {
                     cell(ms(row.gpu_ms), about(row.gpu_ms.is_none(), &no_time));
                     cell(
                         ms(row.cpu_ms),
-                        about(row.cpu_ms.is_none(), "Not recorded yet."),
+                        about(row.cpu_ms.is_none(), say!("passes.not_recorded_yet")),
                     );
                     let calls = u64::from(row.cost.draws + row.cost.dispatches);
                     cell(short_count(calls), &calls_in_words(&row.cost));
@@ -243,21 +253,30 @@ fn list(editor: &Editor, ui: &mut Ui) {
 
 fn calls_in_words(cost: &PassStatistics) -> String {
     let workgroups = match cost.workgroups {
-        Some(workgroups) => format!(" of {} workgroups", count(workgroups)),
-        None if cost.dispatches > 0 => ", as large as a buffer says".to_owned(),
+        Some(workgroups) => say!("passes.of_workgroups", workgroups = count(workgroups)),
+        None if cost.dispatches > 0 => say!("passes.as_large_as_a_buffer_says").to_owned(),
         None => String::new(),
     };
-    format!(
-        "{} draws of {} instances, {} dispatches{workgroups}",
-        cost.draws, cost.instances, cost.dispatches
+    say!(
+        "passes.draws_of_instances_dispatches",
+        draws = cost.draws,
+        instances = cost.instances,
+        dispatches = cost.dispatches,
+        workgroups = workgroups
     )
 }
 
 fn triangles_in_words(row: &Row) -> String {
     let triangles = count(row.cost.triangles);
     row.vertices.map_or_else(
-        || format!("{triangles} triangles"),
-        |vertices| format!("{triangles} triangles, {} vertices shaded", count(vertices)),
+        || say!("passes.triangles_sent", triangles = triangles),
+        |vertices| {
+            say!(
+                "passes.triangles_vertices_shaded",
+                triangles = triangles,
+                vertices = count(vertices)
+            )
+        },
     )
 }
 
@@ -266,13 +285,14 @@ fn traffic_in_words(row: &Row, no_count: &str) -> String {
     let traffic = &row.cost.traffic;
     let overdraw = match row.fragments {
         Some(fragments) => bytes(traffic.overdraw(fragments)),
-        None => format!("unknown. {no_count}"),
+        None => say!("passes.unknown", no_count = no_count),
     };
-    format!(
-        "Stencil {}\nA GPU that works in tiles loads {} and stores {}\nOverdraw {overdraw}",
-        bytes(traffic.stencil),
-        bytes(traffic.loaded),
-        bytes(traffic.stored)
+    say!(
+        "passes.stencil_a_gpu_that_works_in",
+        stencil = bytes(traffic.stencil),
+        loaded = bytes(traffic.loaded),
+        stored = bytes(traffic.stored),
+        overdraw = overdraw
     )
 }
 
@@ -282,7 +302,7 @@ fn counters(panel: &PassesPanel, ui: &mut Ui) {
         return;
     }
     ui.add_space(4.0);
-    ui.label(RichText::new("Counted").small().weak());
+    ui.label(RichText::new(say!("passes.counted")).small().weak());
     let table = egui::Grid::new("counters").num_columns(2);
     table.striped(true).show(ui, |ui| {
         for (description, value) in &panel.counters {
@@ -300,9 +320,10 @@ fn systems(panel: &PassesPanel, ui: &mut Ui) {
         return;
     }
     ui.add_space(4.0);
-    let about = "CPU time of the thread that ran each, median of the last steps. Work that a \
-                 system handed to other threads is not in it.";
-    let title = RichText::new("Systems, CPU thread ms").small().weak();
+    let about = say!("passes.cpu_time_of_the_thread_that");
+    let title = RichText::new(say!("passes.systems_cpu_thread_ms"))
+        .small()
+        .weak();
     ui.label(title).on_hover_text(about);
     let table = egui::Grid::new("systems").num_columns(2);
     table.striped(true).show(ui, |ui| {
@@ -324,14 +345,20 @@ fn totals(editor: &Editor, ui: &mut Ui, palette: Palette) {
         let value =
             |label: &str, text: String| RichText::new(format!("{label} {text}")).monospace();
         ui.label(value(
-            "GPU",
-            format!("{:>7} ms", ms(timings.gpu_ms.median())),
+            say!("passes.gpu"),
+            say!(
+                "passes.ms",
+                ms = format_args!("{:>7}", ms(timings.gpu_ms.median()))
+            ),
         ));
         ui.label(value(
-            "CPU",
-            format!("{:>6} ms", ms(timings.cpu_ms.median())),
+            say!("passes.cpu"),
+            say!(
+                "passes.ms",
+                ms = format_args!("{:>6}", ms(timings.cpu_ms.median()))
+            ),
         ));
-        ui.label(value("targets", bytes(panel.target_bytes)));
+        ui.label(value(say!("passes.targets"), bytes(panel.target_bytes)));
     });
     let total: f64 = panel.rows.iter().filter_map(|row| row.gpu_ms).sum();
     if total <= 0.0 {
@@ -351,10 +378,10 @@ fn totals(editor: &Editor, ui: &mut Ui, palette: Palette) {
         ui.painter()
             .rect_filled(part, 1.0, palette.gpu.gamma_multiply(shade));
         let id = ui.scope_id().with(("share", index));
-        ui.interact(part, id, Sense::hover()).on_hover_text(format!(
-            "{}: {:.0} % of the GPU time",
-            row.name,
-            share * 100.0
+        ui.interact(part, id, Sense::hover()).on_hover_text(say!(
+            "passes.of_the_gpu_time",
+            name = row.name,
+            share = format_args!("{:.0}", share * 100.0)
         ));
         left = right;
     }

@@ -4,6 +4,7 @@ use egui::{Button, Label, RichText, ScrollArea, Ui};
 
 use super::widgets::combo_of;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Number keys.
@@ -37,13 +38,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let selected = workbench.pipelines.selected().to_owned();
     let mut wanted = None;
     let mut given = None;
-    ui.label(RichText::new("Keys [ and ] go back and on, number keys to favourites.").weak());
+    ui.label(RichText::new(say!("pipelines.keys_and_go_back_and_on")).weak());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for entry in &workbench.library.pipelines {
             let key = key_of(&favourites, &entry.name);
             ui.horizontal(|ui| {
                 let shown = key.map_or_else(|| " ".to_owned(), |key| key.to_string());
-                let label = format!("Key of {}", entry.title);
+                let label = say!("pipelines.key_of", title = entry.title);
                 combo_of(ui, &label, &shown, 34.0, |ui| {
                     for number in 1..=KEYS {
                         let text = number.to_string();
@@ -52,7 +53,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                         }
                     }
                 })
-                .on_hover_text("The number key that chooses it");
+                .on_hover_text(say!("pipelines.the_number_key_that_chooses_it"));
                 let mut text = RichText::new(&entry.title);
                 if entry.problem.is_some() {
                     text = text.color(Palette::of(ui).error);

@@ -5,6 +5,7 @@ use egui_extras::{Column, TableBuilder};
 
 use super::pixel_light;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::probing::Probing;
 
@@ -13,16 +14,14 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let ready = workbench.picture_ready();
     ui.horizontal_wrapped(|ui| {
-        let find = ui.add_enabled(ready, egui::Button::new("Find invalid numbers"));
-        let find = find.on_hover_text(
-            "Names the first pass that leaves a value which is no number, or infinite.",
-        );
+        let find = ui.add_enabled(ready, egui::Button::new(say!("pixel.find_invalid_numbers")));
+        let find = find.on_hover_text(say!("pixel.names_the_first_pass_that_leaves"));
         if find.clicked() {
             workbench.find_invalid();
         }
         if let Some((x, y)) = workbench.probing.pixel {
-            ui.label(RichText::new(format!("Pixel {x}, {y}")).monospace());
-            if ui.button("Read again").clicked() {
+            ui.label(RichText::new(say!("pixel.pixel", x = x, y = y)).monospace());
+            if ui.button(say!("pixel.read_again")).clicked() {
                 workbench.probe_again();
             }
         }
@@ -35,7 +34,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let probing = &workbench.probing;
     let other = workbench.pipelines.shown() != Some(probing.pipeline.as_str());
     if other || probing.values.is_empty() && probing.invalid.is_none() {
-        let text = "Click a pixel of the picture to see what each pass does to it.";
+        let text = say!("pixel.click_a_pixel_of_the_picture");
         ui.label(RichText::new(text).weak());
         return;
     }
@@ -65,7 +64,12 @@ fn table(ui: &mut Ui, probing: &Probing, palette: Palette, row: f32) {
         .vscroll(false)
         .columns(Column::auto().at_least(70.0), 4);
     let table = table.header(row, |mut header| {
-        for title in ["Pass", "Target", "Before", "After"] {
+        for title in [
+            say!("pixel.pass"),
+            say!("pixel.target"),
+            say!("pixel.before"),
+            say!("pixel.after"),
+        ] {
             header.col(|ui| {
                 ui.strong(title);
             });
@@ -80,7 +84,10 @@ fn table(ui: &mut Ui, probing: &Probing, palette: Palette, row: f32) {
             line.col(|ui| {
                 ui.label(RichText::new(&written.target).monospace());
             });
-            let before = written.before.as_deref().unwrap_or("not written yet");
+            let before = written
+                .before
+                .as_deref()
+                .unwrap_or(say!("pixel.not_written_yet"));
             let same = written.before.as_ref() == Some(&written.after);
             line.col(|ui| {
                 ui.label(RichText::new(before).monospace().weak());

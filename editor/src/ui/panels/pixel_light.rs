@@ -6,6 +6,7 @@ use lightbench::world::glam::DVec3;
 
 use super::widgets::{MISSING, combo};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::lighting::Lit;
 
@@ -16,9 +17,11 @@ const MOST_LAMPS: usize = 40;
 pub fn choose(editor: &mut Editor, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         let workbench = &mut editor.workbench;
-        let about = "What each light adds to the pixel, computed on the processor from the scene as it \
-                     stands, by the same formulas as the shaders have. Without shadows.";
-        let on = ui.checkbox(&mut workbench.lighting.on, "Light by light");
+        let about = say!("pixel_light.what_each_light_adds_to_the");
+        let on = ui.checkbox(
+            &mut workbench.lighting.on,
+            say!("pixel_light.light_by_light"),
+        );
         if on.on_hover_text(about).changed() && workbench.lighting.on {
             workbench.light_pixel();
         }
@@ -34,7 +37,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &editor.workbench;
     let compares = workbench.lighting.on || workbench.beside.pipeline.is_some();
     if compares && workbench.clock.playing {
-        let text = "While time runs, what is compared is of different moments. Pause it first.";
+        let text = say!("pixel_light.while_time_runs_what_is_compared");
         ui.colored_label(Palette::of(ui).warning, text);
     }
     beside(editor, ui);
@@ -64,14 +67,14 @@ fn lamps(editor: &mut Editor, ui: &mut Ui) {
         ui.label(RichText::new(warning).weak());
     }
     if !lit.meets {
-        ui.label("Nothing is drawn there: the pixel shows the sky.");
+        ui.label(say!("pixel_light.nothing_is_drawn_there_the_pixel"));
     }
     let clicked = table(ui, lit);
     let [behind, outside, beyond] = lit.others;
     let others = [
-        (behind, "shine from behind the surface"),
-        (outside, "have it outside of their cone"),
-        (beyond, "are too far off"),
+        (behind, say!("pixel_light.shine_from_behind_the_surface")),
+        (outside, say!("pixel_light.have_it_outside_of_their_cone")),
+        (beyond, say!("pixel_light.are_too_far_off")),
     ];
     let others: Vec<String> = others
         .iter()
@@ -79,12 +82,14 @@ fn lamps(editor: &mut Editor, ui: &mut Ui) {
         .map(|(count, why)| format!("{count} {why}"))
         .collect();
     if !others.is_empty() {
-        ui.label(RichText::new(format!("Other lights: {}.", others.join(", "))).weak());
+        ui.label(
+            RichText::new(say!("pixel_light.other_lights", lights = others.join(", "))).weak(),
+        );
     }
     let hdr = workbench.probing.results.hdr;
     ui.label(match hdr {
         Some([r, g, b, _]) => against(lit.sum, DVec3::new(r.into(), g.into(), b.into())),
-        None => "The pipeline names no target of light to compare with.".to_owned(),
+        None => say!("pixel_light.the_pipeline_names_no_target_of").to_owned(),
     });
     if let Some(scene) = workbench.scenes.scene()
         && let Some(entity) = clicked.filter(|entity| scene.world.contains(*entity))
@@ -97,10 +102,11 @@ fn lamps(editor: &mut Editor, ui: &mut Ui) {
 fn against(sum: DVec3, hdr: DVec3) -> String {
     let apart = (hdr - sum).abs().max_element();
     let share = apart / sum.abs().max_element().max(1e-9);
-    format!(
-        "The pipeline's light is {}: off by {apart:.5}, {:.2} % of the sum.",
-        numbers(hdr.to_array()).trim_start(),
-        share * 100.0
+    say!(
+        "pixel_light.the_pipeline_light_is_off_by",
+        light = numbers(hdr.to_array()).trim_start(),
+        apart = format_args!("{apart:.5}"),
+        share = format_args!("{:.2}", share * 100.0)
     )
 }
 
@@ -109,13 +115,18 @@ fn table(ui: &mut Ui, lit: &Lit) -> Option<Entity> {
     let mut clicked = None;
     let mono = |text: String| RichText::new(text).monospace();
     wide(ui, "lamps", |ui| {
-        for title in ["Light", "Kind", "Metres", "Radiance"] {
+        for title in [
+            say!("pixel_light.light"),
+            say!("pixel_light.kind"),
+            say!("pixel_light.metres"),
+            say!("pixel_light.radiance"),
+        ] {
             ui.strong(title);
         }
         ui.end_row();
         for lamp in lit.lamps.iter().take(MOST_LAMPS) {
             let name = ui.selectable_label(false, &lamp.name);
-            if name.on_hover_text("Chooses it").clicked() {
+            if name.on_hover_text(say!("pixel_light.chooses_it")).clicked() {
                 clicked = Some(lamp.entity);
             }
             ui.label(lamp.kind);
@@ -134,14 +145,17 @@ fn table(ui: &mut Ui, lit: &Lit) -> Option<Entity> {
         let rest = &lit.lamps[lit.lamps.len().min(MOST_LAMPS)..];
         if !rest.is_empty() {
             let sum = rest.iter().map(|lamp| lamp.radiance).sum();
-            line(format!("{} more", rest.len()), sum);
+            line(say!("pixel_light.more", rest = rest.len()), sum);
         }
-        for (name, value) in [("emitted", lit.emitted), ("sky", lit.sky)] {
+        for (name, value) in [
+            (say!("pixel_light.emitted"), lit.emitted),
+            (say!("pixel_light.sky"), lit.sky),
+        ] {
             if value != DVec3::ZERO {
                 line(name.to_owned(), value);
             }
         }
-        line("sum".to_owned(), lit.sum);
+        line(say!("pixel_light.sum").to_owned(), lit.sum);
     });
     clicked
 }
@@ -150,11 +164,16 @@ fn choose_beside(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let chosen = workbench.beside.pipeline.clone();
     let title = |name: &str| workbench.library.pipeline_title(name).to_owned();
-    let shown = chosen.as_deref().map_or_else(|| "none".to_owned(), title);
+    let shown = chosen
+        .as_deref()
+        .map_or_else(|| say!("pixel_light.none").to_owned(), title);
     let here = workbench.pipelines.shown().unwrap_or_default().to_owned();
     let mut wanted = None;
-    let response = combo(ui, "Compare with", &shown, 170.0, |ui| {
-        if ui.selectable_label(chosen.is_none(), "none").clicked() {
+    let response = combo(ui, say!("pixel_light.compare_with"), &shown, 170.0, |ui| {
+        if ui
+            .selectable_label(chosen.is_none(), say!("pixel_light.none"))
+            .clicked()
+        {
             wanted = Some(None);
         }
         for entry in &workbench.library.pipelines {
@@ -164,10 +183,7 @@ fn choose_beside(editor: &mut Editor, ui: &mut Ui) {
             }
         }
     });
-    response.on_hover_text(
-        "Draws the same moment once with another pipeline, and reads the pixel there. The \
-             picture on screen stays.",
-    );
+    response.on_hover_text(say!("pixel_light.draws_the_same_moment_once_with"));
     if workbench.beside.is_waiting() {
         ui.spinner();
     }
@@ -196,15 +212,15 @@ fn beside(editor: &Editor, ui: &mut Ui) {
         [rgb(now.output), rgb(there.output)],
     );
     wide(ui, "beside", |ui| {
-        for title in ["", "Light", "Picture"] {
+        for title in ["", say!("pixel_light.light"), say!("pixel_light.picture")] {
             ui.strong(title);
         }
         ui.end_row();
         let rows = [
-            ("Here", light[0], picture[0]),
-            ("There", light[1], picture[1]),
+            (say!("pixel_light.here"), light[0], picture[0]),
+            (say!("pixel_light.there"), light[1], picture[1]),
             (
-                "Difference",
+                say!("pixel_light.difference"),
                 apart(light[0], light[1]),
                 apart(picture[0], picture[1]),
             ),

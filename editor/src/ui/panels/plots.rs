@@ -4,6 +4,7 @@ use egui::{Align2, Color32, FontId, Pos2, Rect, RichText, Sense, Stroke, Ui, pos
 use lightbench::script::plots::Plot;
 
 use crate::ui::editor::Editor;
+use crate::ui::messages::{say, text};
 use crate::ui::theme::Palette;
 use crate::ui::workbench::trends::Trend;
 
@@ -97,12 +98,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         (None, None) => Vec::new(),
     };
     if plots.is_empty() && editor.plots.trend.is_some() {
-        ui.label(RichText::new("Each frame that is drawn adds to curves here.").weak());
+        ui.label(RichText::new(say!("plots.each_frame_that_is_drawn_adds")).weak());
         return;
     }
     if plots.is_empty() {
-        let text = "A script of the scene that calls plot(\"name\", value) in each step draws a curve \
-                    here.";
+        let text = say!("plots.a_script_of_the_scene_that");
         ui.label(RichText::new(text).weak());
         return;
     }
@@ -131,13 +131,17 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 fn choose(editor: &mut Editor, ui: &mut Ui) {
     let trend = &mut editor.plots.trend;
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(trend, None, "Scripts");
+        ui.selectable_value(trend, None, say!("plots.scripts"));
         for (choice, title) in Trend::ALL {
-            ui.selectable_value(trend, Some(choice), title);
+            ui.selectable_value(trend, Some(choice), text(title));
         }
         if trend.is_some() {
-            let about = "Forgets all curves of frames.";
-            if ui.button("Clear").on_hover_text(about).clicked() {
+            let about = say!("plots.forgets_all_curves_of_frames");
+            if ui
+                .button(say!("plots.clear"))
+                .on_hover_text(about)
+                .clicked()
+            {
                 editor.workbench.trends.clear();
             }
         }
@@ -151,7 +155,8 @@ fn chart(ui: &mut Ui, shown: &[(usize, &Plot)]) {
         (ui.available_height() - line).max(40.0),
     );
     let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Curves"));
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, say!("plots.curves")));
     let Some(extent) = Extent::of(shown.iter().map(|(_, plot)| *plot)) else {
         return;
     };

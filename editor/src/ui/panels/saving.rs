@@ -4,6 +4,7 @@ use egui::{Context, Id, Modal, RichText, TextEdit};
 
 use crate::ui::dialogs::Question;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::panels::entities::sentence;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::Workbench;
@@ -35,25 +36,23 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let (mut save, mut cancel, mut elsewhere) = (false, false, false);
     let modal = Modal::new(Id::unique("save scene")).show(ctx, |ui| {
         ui.set_width(430.0);
-        let label = ui.label("Save the scene as");
+        let label = ui.label(say!("saving.save_the_scene_as"));
         let field = TextEdit::singleline(&mut saving.name).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);
         if std::mem::take(&mut saving.focus) {
             field.request_focus();
         }
         save |= field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        let text = "A name for the project's scripts/scenes, or the path of a file. It holds the world \
-                    as it is now, with all that was changed by hand; the script that moves it stays \
-                    behind.";
+        let text = say!("saving.a_name_for_the_project_scripts");
         ui.label(RichText::new(text).weak());
         if let Some(wrong) = &saving.wrong {
             ui.label(RichText::new(sentence(wrong)).color(Palette::of(ui).error));
         }
         ui.horizontal(|ui| {
-            save |= ui.button("Save").clicked();
-            cancel |= ui.button("Cancel").clicked();
+            save |= ui.button(say!("saving.save")).clicked();
+            cancel |= ui.button(say!("saving.cancel")).clicked();
             if editor.dialogs.native {
-                elsewhere = ui.button("Choose a place…").clicked();
+                elsewhere = ui.button(say!("saving.choose_a_place")).clicked();
             }
         });
     });

@@ -4,6 +4,7 @@ use egui::{Align, Label, Layout, RichText, Ui};
 
 use super::widgets;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Draws the status bar.
@@ -16,9 +17,15 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             let gpu = workbench.timings.gpu_ms.median();
             let cpu = workbench.timings.cpu_ms.median();
             let mono = |text: String| Label::new(RichText::new(text).monospace()).selectable(false);
-            ui.add(mono(format!("CPU {:>7} ms", widgets::ms(cpu))));
-            ui.add(mono(format!("GPU {:>7} ms", widgets::ms(gpu))))
-                .on_hover_text("The whole frame, median of the last frames at this size.");
+            ui.add(mono(say!(
+                "status.cpu_ms",
+                cpu = format_args!("{:>7}", widgets::ms(cpu))
+            )));
+            ui.add(mono(say!(
+                "status.gpu_ms",
+                gpu = format_args!("{:>7}", widgets::ms(gpu))
+            )))
+            .on_hover_text(say!("status.the_whole_frame_median_of_the"));
             if let Some((width, height)) = workbench.drawn_size() {
                 ui.add(mono(format!("{width} x {height}")));
             }
@@ -27,8 +34,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 let count = workbench.problems().count();
                 if let Some(first) = workbench.problems().next() {
                     let text = match count {
-                        1 => "1 mistake:".to_owned(),
-                        count => format!("{count} mistakes:"),
+                        1 => say!("status.one_mistake").to_owned(),
+                        count => say!("status.mistakes", count = count),
                     };
                     let color = Palette::of(ui).error;
                     ui.label(RichText::new(text).color(color));
@@ -42,16 +49,17 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                     summary.name, summary.backend, summary.driver_info
                 );
                 ui.add(Label::new(text).truncate()).on_hover_ui(|ui| {
-                    ui.label(format!(
-                        "Driver: {} {}",
-                        summary.driver, summary.driver_info
+                    ui.label(say!(
+                        "status.driver",
+                        driver = summary.driver,
+                        driver_info = summary.driver_info
                     ));
                     for missing in &summary.missing {
-                        ui.label(format!("Not there: {missing}"));
+                        ui.label(say!("status.not_there", missing = missing));
                     }
                 });
                 if summary.software {
-                    let text = "software driver: times are not those of a graphics card";
+                    let text = say!("status.software_driver_times_are_not_those");
                     ui.add(
                         Label::new(RichText::new(text).color(Palette::of(ui).warning)).truncate(),
                     );

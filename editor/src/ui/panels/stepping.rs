@@ -7,6 +7,7 @@ use egui::{
 
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::screen::Place;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::stepping::Stopped;
@@ -51,7 +52,12 @@ fn fitted(rect: Rect, size: egui::Vec2) -> Rect {
 /// What stands in the picture's place, in words.
 fn title(stopped: &Stopped) -> String {
     let number = stopped.index + 1;
-    let mut text = format!("After pass {number} of {}: {}", stopped.count, stopped.pass);
+    let mut text = say!(
+        "stepping.after_pass_of",
+        number = number,
+        count = stopped.count,
+        pass = stopped.pass
+    );
     if let Some((target, _)) = &stopped.shown {
         text += &format!(", {target}");
     }
@@ -85,16 +91,16 @@ fn notes(ui: &mut Ui, stopped: &Stopped, palette: Palette) {
         ui.label(RichText::new(text).small().color(palette.note_text));
     };
     if stopped.is_left_out {
-        note("Nobody uses what it writes: it runs only to be looked at.".to_owned());
+        note(say!("stepping.nobody_uses_what_it_writes_it").to_owned());
     }
     if stopped.targets.is_empty() {
         let what = match stopped.buffers.as_slice() {
-            [] => "It writes nothing that can be shown".to_owned(),
-            buffers => format!("It writes buffers: {}", buffers.join(", ")),
+            [] => say!("stepping.it_writes_nothing_that_can_be").to_owned(),
+            buffers => say!("stepping.it_writes_buffers", buffers = buffers.join(", ")),
         };
         note(match stopped.shown {
-            Some(_) => format!("{what}. The picture is the one before."),
-            None => format!("{what}. Nothing was drawn before."),
+            Some(_) => say!("stepping.the_picture_is_the_one_before", what = what),
+            None => say!("stepping.nothing_was_drawn_before", what = what),
         });
     }
 }
@@ -110,11 +116,11 @@ fn controls(editor: &mut Editor, ui: &mut Ui, stopped: &Stopped) {
             editor.perform(action, &ctx);
         }
     };
-    button(ui, "Previous", Action::PassBefore);
-    button(ui, "Next", Action::PassAfter);
-    button(ui, "Whole frame", Action::WholeFrame);
+    button(ui, say!("stepping.previous"), Action::PassBefore);
+    button(ui, say!("stepping.next"), Action::PassAfter);
+    button(ui, say!("stepping.whole_frame"), Action::WholeFrame);
     let mut number = stopped.index + 1;
-    let label = ui.label("Pass");
+    let label = ui.label(say!("stepping.pass"));
     let slider = Slider::new(&mut number, 1..=stopped.count).show_value(false);
     if ui.add(slider).labelled_by(label.id).changed() {
         editor.workbench.stop_after(Some(number - 1));
@@ -122,7 +128,7 @@ fn controls(editor: &mut Editor, ui: &mut Ui, stopped: &Stopped) {
     if stopped.targets.len() > 1 {
         let shown = stopped.shown.as_ref().map_or("", |(target, _)| target);
         let mut wanted = None;
-        combo(ui, "Of", shown, 110.0, |ui| {
+        combo(ui, say!("stepping.of"), shown, 110.0, |ui| {
             for target in &stopped.targets {
                 if ui.selectable_label(target == shown, target).clicked() {
                     wanted = Some(target.clone());

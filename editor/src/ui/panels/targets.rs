@@ -11,6 +11,7 @@ use wgpu::Texture;
 use super::histogram::{self, Histogram};
 use super::widgets::{bytes, combo};
 use crate::ui::editor::Editor;
+use crate::ui::messages::{message, say, text};
 use crate::ui::screen::Place;
 use crate::ui::workbench::Workbench;
 
@@ -30,17 +31,17 @@ pub struct TargetsPanel {
 const LEAST_HEIGHT: f32 = 110.0;
 
 const CHANNELS: [(Channels, &str); 5] = [
-    (Channels::Color, "Colour"),
-    (Channels::Red, "Red"),
-    (Channels::Green, "Green"),
-    (Channels::Blue, "Blue"),
-    (Channels::Alpha, "Alpha"),
+    (Channels::Color, message!("targets.colour")),
+    (Channels::Red, message!("targets.red")),
+    (Channels::Green, message!("targets.green")),
+    (Channels::Blue, message!("targets.blue")),
+    (Channels::Alpha, message!("targets.alpha")),
 ];
 
 const MAPS: [(ColorMap, &str); 3] = [
-    (ColorMap::Light, "Light"),
-    (ColorMap::Data, "Data"),
-    (ColorMap::FalseColor, "False colour"),
+    (ColorMap::Light, message!("targets.light")),
+    (ColorMap::Data, message!("targets.data")),
+    (ColorMap::FalseColor, message!("targets.false_colour")),
 ];
 
 impl TargetsPanel {
@@ -65,7 +66,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
     let workbench = &mut editor.workbench;
     let far = workbench.far_shown();
     let Some(desc) = workbench.pipelines.shown_pipeline().map(|p| p.desc.clone()) else {
-        ui.label(RichText::new("No pipeline is ready.").weak());
+        ui.label(RichText::new(say!("targets.no_pipeline_is_ready")).weak());
         return;
     };
     let panel = &mut editor.targets;
@@ -92,7 +93,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
             picture(editor, ui, &desc, request, bottom);
         });
     } else {
-        let text = "Choose a target to see it as it is after a pass.";
+        let text = say!("targets.choose_a_target_to_see_it");
         ui.label(RichText::new(text).weak());
     }
 }
@@ -117,16 +118,16 @@ fn choose(
         .filter(|name| desc.target(name).is_some());
     let (mut new_pass, mut new_target) = (pass, target.clone());
     ui.horizontal_wrapped(|ui| {
-        let shown = target.as_deref().unwrap_or("none");
-        combo(ui, "Target", shown, 110.0, |ui| {
-            ui.selectable_value(&mut new_target, None, "none");
+        let shown = target.as_deref().unwrap_or(say!("targets.none"));
+        combo(ui, say!("targets.target"), shown, 110.0, |ui| {
+            ui.selectable_value(&mut new_target, None, say!("targets.none"));
             for entry in &desc.targets {
                 ui.selectable_value(&mut new_target, Some(entry.name.clone()), &entry.name)
                     .on_hover_text(entry.format.name());
             }
         });
         let shown = desc.passes.get(pass).map_or("", |pass| pass.name.as_str());
-        combo(ui, "After pass", shown, 110.0, |ui| {
+        combo(ui, say!("targets.after_pass"), shown, 110.0, |ui| {
             for (index, entry) in desc.passes.iter().enumerate() {
                 ui.selectable_value(&mut new_pass, index, &entry.name);
             }
@@ -181,27 +182,33 @@ fn part(
                 ui.add(field).labelled_by(label.id);
             }
         };
-        number(ui, "Mip", &mut request.slice.mip, levels);
+        number(ui, say!("targets.mip"), &mut request.slice.mip, levels);
         let name = match target.shape {
-            Shape::Cube => "Side",
-            Shape::Volume(_) => "Slice",
-            Shape::Flat | Shape::Array(_) => "Layer",
+            Shape::Cube => say!("targets.side"),
+            Shape::Volume(_) => say!("targets.slice"),
+            Shape::Flat | Shape::Array(_) => say!("targets.layer"),
         };
         number(ui, name, &mut request.slice.layer, layers);
         if target.samples > 1 {
             let words = |sample: Option<u32>| match sample {
-                None => "mean of all".to_owned(),
+                None => say!("targets.mean_of_all").to_owned(),
                 Some(sample) => sample.to_string(),
             };
-            combo(ui, "Sample", &words(request.sample), 80.0, |ui| {
-                for sample in std::iter::once(None).chain((0..target.samples).map(Some)) {
-                    ui.selectable_value(&mut request.sample, sample, words(sample));
-                }
-            });
+            combo(
+                ui,
+                say!("targets.sample"),
+                &words(request.sample),
+                80.0,
+                |ui| {
+                    for sample in std::iter::once(None).chain((0..target.samples).map(Some)) {
+                        ui.selectable_value(&mut request.sample, sample, words(sample));
+                    }
+                },
+            );
         }
         if stencil {
             let mut on = request.aspect == Aspect::Stencil;
-            if ui.checkbox(&mut on, "Stencil").changed() {
+            if ui.checkbox(&mut on, say!("targets.stencil")).changed() {
                 let suited = Inspection::suited(desc, request.pass, &request.target, far);
                 *request = match suited {
                     Some(depth) if !on => depth,
@@ -230,28 +237,33 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32, aut
             let selected = CHANNELS
                 .iter()
                 .find(|(value, _)| *value == request.channels);
-            let selected = selected.map_or("", |(_, name)| *name);
-            combo(ui, "Channels", selected, 76.0, |ui| {
+            let selected = selected.map_or("", |(_, name)| text(name));
+            combo(ui, say!("targets.channels"), selected, 76.0, |ui| {
                 for (value, name) in CHANNELS.iter().take(channels + 1) {
-                    ui.selectable_value(&mut request.channels, *value, *name);
+                    ui.selectable_value(&mut request.channels, *value, text(name));
                 }
             });
         }
         let selected = MAPS.iter().find(|(value, _)| *value == request.map);
         combo(
             ui,
-            "Map",
-            selected.map_or("", |(_, name)| *name),
+            say!("targets.map"),
+            selected.map_or("", |(_, name)| text(name)),
             90.0,
             |ui| {
                 for (value, name) in MAPS {
-                    ui.selectable_value(&mut request.map, value, name);
+                    ui.selectable_value(&mut request.map, value, text(name));
                 }
             },
         );
-        let about = "The range goes from the least to the greatest value that is shown.";
-        ui.checkbox(automatic, "Automatic").on_hover_text(about);
-        let label = ui.label(if depth { "Range, m" } else { "Range" });
+        let about = say!("targets.the_range_goes_from_the_least");
+        ui.checkbox(automatic, say!("targets.automatic"))
+            .on_hover_text(about);
+        let label = ui.label(if depth {
+            say!("targets.range_m")
+        } else {
+            say!("targets.range")
+        });
         let before = (request.low, request.high);
         let speed = f64::from((request.high - request.low).abs().max(1e-3)) * 0.01;
         let low = DragValue::new(&mut request.low)
@@ -267,8 +279,8 @@ fn how(ui: &mut Ui, request: &mut Inspection, desc: &PipelineDesc, far: f32, aut
             *automatic = false;
         }
         if ui
-            .button("Suit")
-            .on_hover_text("The range that suits the format.")
+            .button(say!("targets.suit"))
+            .on_hover_text(say!("targets.the_range_that_suits_the_format"))
             .clicked()
             && let Some(suited) = Inspection::suited(desc, request.pass, &request.target, far)
         {
@@ -286,7 +298,7 @@ fn picture(
     bottom: f32,
 ) {
     let Some(texture) = editor.workbench.inspected() else {
-        ui.label(RichText::new("The next frame shows it.").weak());
+        ui.label(RichText::new(say!("targets.the_next_frame_shows_it")).weak());
         return;
     };
     let format = desc.target(&request.target).map(|target| target.format);

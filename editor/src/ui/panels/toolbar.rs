@@ -6,6 +6,7 @@ use super::pipelines::{favourites, key_of};
 use super::{heat_map, widgets};
 use crate::ui::actions::{Action, shortcut_text};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::panels::handles::Tool;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::clock::{RATES, SPEEDS};
@@ -41,7 +42,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui) {
         entry.map_or_else(|| name.to_owned(), |entry| entry.title.clone())
     };
     let mut wanted = None;
-    widgets::combo(ui, "Scene", &title(&selected), 130.0, |ui| {
+    widgets::combo(ui, say!("toolbar.scene"), &title(&selected), 130.0, |ui| {
         for entry in entries {
             let response = ui.selectable_label(entry.name == selected, &entry.title);
             if response.clicked() {
@@ -63,7 +64,7 @@ fn pipeline(editor: &mut Editor, ui: &mut Ui) {
     let selected = workbench.pipelines.selected().to_owned();
     let mut wanted = None;
     let title = workbench.library.pipeline_title(&selected);
-    let response = widgets::combo(ui, "Pipeline", title, 190.0, |ui| {
+    let response = widgets::combo(ui, say!("toolbar.pipeline"), title, 190.0, |ui| {
         for entry in &workbench.library.pipelines {
             let mut text = RichText::new(&entry.title);
             if entry.problem.is_some() {
@@ -86,7 +87,7 @@ fn pipeline(editor: &mut Editor, ui: &mut Ui) {
             }
         }
     });
-    response.on_hover_text("Keys 1 to 9, [ and ]. Scene, camera and time stay.");
+    response.on_hover_text(say!("toolbar.keys_1_to_9_and_scene"));
     // Its place stays, so that nothing else moves and the picture keeps its size.
     let size = egui::Vec2::splat(ui.spacing().interact_size.y);
     let (place, _) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -100,14 +101,18 @@ fn pipeline(editor: &mut Editor, ui: &mut Ui) {
 
 fn time(editor: &mut Editor, ui: &mut Ui) {
     let playing = editor.workbench.clock.playing;
-    let label = if playing { "Pause" } else { "Play" };
+    let label = if playing {
+        say!("toolbar.pause")
+    } else {
+        say!("toolbar.play")
+    };
     button(editor, ui, label, Action::PlayPause);
-    button(editor, ui, "Step", Action::Step);
+    button(editor, ui, say!("toolbar.step"), Action::Step);
     let in_play = editor.workbench.is_in_play();
-    button_if(editor, ui, in_play, "Stop", Action::Stop);
-    button(editor, ui, "Rewind", Action::Rewind);
+    button_if(editor, ui, in_play, say!("toolbar.stop"), Action::Stop);
+    button(editor, ui, say!("toolbar.rewind"), Action::Rewind);
     let time = editor.workbench.clock.time();
-    let label = ui.label("Speed");
+    let label = ui.label(say!("toolbar.speed"));
     let speed = DragValue::new(&mut editor.workbench.clock.speed)
         .range(SPEEDS)
         .speed(0.01)
@@ -116,30 +121,33 @@ fn time(editor: &mut Editor, ui: &mut Ui) {
     ui.add(speed).labelled_by(label.id);
     let rate = &mut editor.workbench.clock.rate;
     let words = |rate: Option<u32>| match rate {
-        None => "as drawn".to_owned(),
+        None => say!("toolbar.as_drawn").to_owned(),
         Some(rate) => format!("1/{rate} s"),
     };
-    let steps = widgets::combo(ui, "Steps", &words(*rate), 66.0, |ui| {
+    let steps = widgets::combo(ui, say!("toolbar.steps"), &words(*rate), 66.0, |ui| {
         for choice in std::iter::once(None).chain(RATES.map(Some)) {
             ui.selectable_value(rate, choice, words(choice));
         }
     });
-    steps.on_hover_text(
-        "How far the scene goes in one step: as long as each frame takes, or always the same, which \
-         gives the same motion on every machine.",
-    );
+    steps.on_hover_text(say!("toolbar.how_far_the_scene_goes_in"));
     ui.label(RichText::new(format!("{time:9.3} s")).monospace());
 }
 
 fn camera(editor: &mut Editor, ui: &mut Ui) {
-    button(editor, ui, "Frame", Action::Frame);
+    button(editor, ui, say!("toolbar.frame"), Action::Frame);
     sight(editor, ui);
     let away = editor.workbench.is_camera_away();
-    button_if(editor, ui, away, "Reset camera", Action::ResetCamera);
+    button_if(
+        editor,
+        ui,
+        away,
+        say!("toolbar.reset_camera"),
+        Action::ResetCamera,
+    );
     ui.separator();
     // Together on one line, where the toolbar takes two.
     ui.horizontal(|ui| {
-        let label = ui.label("Flying speed");
+        let label = ui.label(say!("toolbar.flying_speed"));
         let focus = editor.workbench.focus();
         let field = DragValue::new(&mut editor.workbench.camera_of_mut(focus).speed)
             .range(0.01..=10_000.0)
@@ -163,10 +171,10 @@ fn handles(editor: &mut Editor, ui: &mut Ui) {
         }
     }
     let handles = &mut editor.viewport.handles;
-    let about = "Handles along the axes of the entity that was chosen last";
-    ui.checkbox(&mut handles.local, "Local")
+    let about = say!("toolbar.handles_along_the_axes_of_the");
+    ui.checkbox(&mut handles.local, say!("toolbar.local"))
         .on_hover_text(about);
-    let label = ui.label("Snap");
+    let label = ui.label(say!("toolbar.snap"));
     let (step, range, suffix) = match handles.tool {
         Tool::Move => (&mut handles.snap.distance, 0.001..=1000.0, " m"),
         Tool::Turn => (&mut handles.snap.angle, 0.1..=180.0, "°"),
@@ -179,7 +187,7 @@ fn handles(editor: &mut Editor, ui: &mut Ui) {
         .suffix(suffix);
     ui.add(field)
         .labelled_by(label.id)
-        .on_hover_text("The steps in which handles go while Ctrl is held");
+        .on_hover_text(say!("toolbar.the_steps_in_which_handles_go"));
 }
 
 /// What the viewport looks through.
@@ -187,8 +195,8 @@ fn sight(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let now = workbench.sight();
     let title = |sight: &Sight| match sight {
-        Sight::Perspective => "Perspective".to_owned(),
-        Sight::Camera(name) if name.is_empty() => "Scene".to_owned(),
+        Sight::Perspective => say!("toolbar.perspective").to_owned(),
+        Sight::Camera(name) if name.is_empty() => say!("toolbar.scene").to_owned(),
         Sight::Camera(name) => name.clone(),
         Sight::Side(side) => side.title().to_owned(),
     };
@@ -199,7 +207,7 @@ fn sight(editor: &mut Editor, ui: &mut Ui) {
         .chain(cameras)
         .collect();
     let mut wanted = None;
-    widgets::combo(ui, "View", &title(&now), 90.0, |ui| {
+    widgets::combo(ui, say!("toolbar.view"), &title(&now), 90.0, |ui| {
         for (index, sight) in all.iter().enumerate() {
             ui.push_id(index, |ui| {
                 if ui.selectable_label(*sight == now, title(sight)).clicked() {

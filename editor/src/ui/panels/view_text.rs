@@ -3,6 +3,7 @@
 use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
 
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::viewpoint::{MARK, Viewpoint};
 
@@ -17,7 +18,7 @@ pub struct PasteWindow {
 pub fn copy(editor: &mut Editor, ctx: &Context) {
     let focus = editor.workbench.focus();
     let Some(view) = editor.workbench.viewpoint_in(focus) else {
-        let text = "There is no view to copy yet.";
+        let text = say!("view_text.there_is_no_view_to_copy");
         editor.workbench.log.warn(text);
         return;
     };
@@ -25,7 +26,10 @@ pub fn copy(editor: &mut Editor, ctx: &Context) {
     if let Some(left_out) = editor.workbench.left_out_of_view() {
         editor.workbench.log.warn(left_out);
     }
-    editor.workbench.log.info(format!("Copied: {view}"));
+    editor
+        .workbench
+        .log
+        .info(say!("view_text.copied", view = view));
 }
 
 /// Draws the window while it is open. A view that is pasted anywhere else, outside of fields, is gone to
@@ -40,7 +44,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let entered = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
     let modal = Modal::new(Id::unique("paste a view")).show(ctx, |ui| {
         ui.set_width(520.0);
-        let label = ui.label("Paste a view");
+        let label = ui.label(say!("view_text.paste_a_view"));
         let field = TextEdit::multiline(&mut window.typed)
             .desired_rows(4)
             .desired_width(f32::INFINITY)
@@ -51,8 +55,8 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             ui.label(RichText::new(problem).color(Palette::of(ui).error));
         }
         ui.horizontal(|ui| {
-            let go = ui.button("Go there").clicked();
-            (go, ui.button("Close").clicked())
+            let go = ui.button(say!("view_text.go_there")).clicked();
+            (go, ui.button(say!("view_text.close")).clicked())
         })
         .inner
     });

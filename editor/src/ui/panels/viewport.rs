@@ -14,6 +14,7 @@ use super::{compare, heat_map, marks, select, steering, stepping, widgets};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::lens::Lens;
+use crate::ui::messages::say;
 use crate::ui::screen::Place;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::viewports::Viewport;
@@ -75,7 +76,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant, viewport: Viewport) 
         loading(editor, ui, rect, scale.is_some());
     }
     if let Some(scale) = scale.filter(|scale| *scale < 1.0) {
-        let text = format!("{:.0} % resolution while moving", scale * 100.0);
+        let text = say!(
+            "viewport.resolution_while_moving",
+            scale = format_args!("{:.0}", scale * 100.0)
+        );
         note(ui, rect, Align2::RIGHT_TOP, &text);
     }
     if is_first && editor.hint && !editor.welcome {
@@ -212,11 +216,17 @@ fn problems(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
             }
         }
         if count > MOST_PROBLEMS {
-            ui.label(RichText::new(format!("{} more in the log", count - MOST_PROBLEMS)).weak());
+            ui.label(
+                RichText::new(say!(
+                    "viewport.more_in_the_log",
+                    most_problems = count - MOST_PROBLEMS
+                ))
+                .weak(),
+            );
         }
         if workbench.scenes.shown().is_some() && workbench.pipelines.shown().is_some() {
             ui.add_space(4.0);
-            ui.label(RichText::new("The last good picture stays until this is mended.").weak());
+            ui.label(RichText::new(say!("viewport.the_last_good_picture_stays_until")).weak());
         }
     });
     if let Some(place) = wanted {
@@ -250,8 +260,8 @@ fn loading(editor: &Editor, ui: &mut Ui, rect: Rect, has_picture: bool) {
     let workbench = &editor.workbench;
     if let Some(state) = workbench.scenes.loading() {
         let text = match state.label.as_str() {
-            "" => format!("Loading {}", state.name),
-            label => format!("Loading {}: {label}", state.name),
+            "" => say!("viewport.loading", name = state.name),
+            label => say!("viewport.loading_part", name = state.name, label = label),
         };
         let center = if has_picture {
             rect.center_top() + vec2(0.0, 26.0)
@@ -262,7 +272,12 @@ fn loading(editor: &Editor, ui: &mut Ui, rect: Rect, has_picture: bool) {
         let bar = egui::ProgressBar::new(state.fraction).text(text);
         ui.put(place, bar);
     } else if !has_picture && workbench.pipelines.is_busy() {
-        note(ui, rect, Align2::CENTER_CENTER, "Building the pipeline");
+        note(
+            ui,
+            rect,
+            Align2::CENTER_CENTER,
+            say!("viewport.building_the_pipeline"),
+        );
     }
 }
 
@@ -285,14 +300,14 @@ pub(super) fn note(ui: &Ui, rect: Rect, align: Align2, text: &str) {
 fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let palette = Palette::of(ui);
     let third = if editor.workbench.files().project().is_some() {
-        "Ctrl+E shows the scene's script. Save, here or in another program, and the picture follows."
+        say!("viewport.ctrl_e_in_a_project")
     } else {
-        "Ctrl+E shows the scene's script. To change it, open a project: File, Open a project."
+        say!("viewport.ctrl_e_without_a_project")
     };
     let lines = [
-        "Drag to orbit, right-drag to look, W A S D to fly, wheel to zoom.",
-        "Click to choose an entity, and to see what each pass does to the pixel.",
-        "Keys 1 to 9, [ and ] swap the pipeline; scene, camera and time stay.",
+        say!("viewport.drag_to_orbit_right_drag_to"),
+        say!("viewport.click_to_choose_an_entity_and"),
+        say!("viewport.keys_1_to_9_and_swap"),
         third,
     ];
     egui::Area::new(Id::unique("hint"))
@@ -310,7 +325,7 @@ fn hint(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
                         ui.label(RichText::new(line).color(palette.note_text));
                     }
                     ui.add_space(2.0);
-                    if ui.small_button("Got it").clicked() {
+                    if ui.small_button(say!("viewport.got_it")).clicked() {
                         editor.hint = false;
                     }
                 });

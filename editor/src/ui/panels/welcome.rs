@@ -4,30 +4,20 @@ use egui::{Align2, Context, RichText, Window};
 
 use crate::ui::actions::Action;
 use crate::ui::editor::Editor;
+use crate::ui::messages::{message, say, text};
 
 /// Things to try, each with the action of a button, if it has one.
 const LINES: [(&str, Option<(&str, Action)>); 5] = [
+    (message!("welcome.drag_in_the_picture_to_look"), None),
+    (message!("welcome.press_1_to_9_to_draw"), None),
+    (message!("welcome.show_in_the_toolbar_draws_the"), None),
     (
-        "Drag in the picture to look around. Click a thing to choose it and to see what each pass \
-         does to its pixel.",
-        None,
+        message!("welcome.read_the_script_of_the_scene"),
+        Some((message!("welcome.edit_the_script"), Action::EditScene)),
     ),
     (
-        "Press 1 to 9 to draw the same scene with another pipeline, and compare what the passes cost.",
-        None,
-    ),
-    (
-        "Show in the toolbar draws the work that each pixel makes; the panel Targets shows what lies \
-         in any target after any pass.",
-        None,
-    ),
-    (
-        "Read the script of the scene and change it: save, and the picture follows.",
-        Some(("Edit the script", Action::EditScene)),
-    ),
-    (
-        "See what else there is: scenes, pipelines and small examples.",
-        Some(("Open the gallery", Action::Gallery)),
+        message!("welcome.see_what_else_there_is_scenes"),
+        Some((message!("welcome.open_the_gallery"), Action::Gallery)),
     ),
 ];
 
@@ -39,24 +29,22 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let mut open = true;
     let mut wanted = None;
     let mut done = false;
-    Window::new("Welcome to Lightbench")
+    Window::new(say!("welcome.welcome_to_lightbench"))
         .open(&mut open)
         .collapsible(false)
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .show(ctx, |ui| {
             ui.set_width(470.0);
-            ui.label(
-                "A workbench on which to learn, teach and compare real-time lighting pipelines.",
-            );
+            ui.label(say!("welcome.a_workbench_on_which_to_learn"));
             ui.add_space(6.0);
-            for (number, (text, button)) in LINES.iter().enumerate() {
+            for (number, (line, button)) in LINES.iter().enumerate() {
                 ui.horizontal_top(|ui| {
                     ui.label(RichText::new(format!("{}", number + 1)).strong());
                     ui.vertical(|ui| {
-                        ui.label(*text);
+                        ui.label(text(line));
                         if let Some((title, action)) = button
-                            && ui.button(*title).clicked()
+                            && ui.button(text(title)).clicked()
                         {
                             wanted = Some(*action);
                         }
@@ -65,8 +53,8 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             }
             ui.add_space(6.0);
             ui.horizontal(|ui| {
-                done = ui.button("Start").clicked();
-                ui.weak("Help, Welcome shows this again.");
+                done = ui.button(say!("welcome.start")).clicked();
+                ui.weak(say!("welcome.help_welcome_shows_this_again"));
             });
         });
     editor.welcome = open && !done && wanted.is_none();

@@ -4,6 +4,7 @@ use egui::{Color32, ComboBox, Label, Response, RichText, Sense, Stroke, Ui, pos2
 use lightbench::render::Place;
 
 use crate::ui::coding::is_in_a_file;
+use crate::ui::messages::say;
 use crate::ui::workbench::timing::{Series, WINDOW};
 
 /// What stands where a number is missing.
@@ -49,7 +50,7 @@ pub fn place(ui: &mut Ui, place: &Place, color: Color32) -> bool {
         return false;
     }
     let label = Label::new(text.underline()).sense(Sense::click());
-    let label = ui.add(label).on_hover_text("Show it in Code");
+    let label = ui.add(label).on_hover_text(say!("widgets.show_it_in_code"));
     label
         .on_hover_cursor(egui::CursorIcon::PointingHand)
         .clicked()
@@ -90,9 +91,9 @@ pub fn short_count(value: u64) -> String {
 pub fn bytes(value: u64) -> String {
     let value = value as f64;
     let (scaled, unit) = match value {
-        v if v >= 1e9 => (v / 1e9, "GB"),
-        v if v >= 1e6 => (v / 1e6, "MB"),
-        v if v >= 1e3 => (v / 1e3, "kB"),
+        v if v >= 1e9 => (v / 1e9, say!("widgets.gb")),
+        v if v >= 1e6 => (v / 1e6, say!("widgets.mb")),
+        v if v >= 1e3 => (v / 1e3, say!("widgets.kb")),
         v => (v, "B"),
     };
     let decimals = match scaled {

@@ -60,7 +60,11 @@ impl Workbench {
 
     /// Back to the scene's own camera, in the viewport that has the focus.
     pub fn reset_camera(&mut self) {
-        let viewport = self.focus();
+        self.reset_camera_of(self.focus());
+    }
+
+    /// The same in a viewport.
+    pub(super) fn reset_camera_of(&mut self, viewport: Viewport) {
         self.watch_camera(viewport, None);
         self.camera_of_mut(viewport).reset();
     }

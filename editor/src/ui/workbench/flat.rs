@@ -7,6 +7,8 @@
 use lightbench::render::View;
 use lightbench::world::glam::{Mat4, Vec2, Vec3};
 
+use crate::ui::messages::say;
+
 /// How many picture heights the eye is away.
 const HEIGHTS: f32 = 1000.0;
 
@@ -35,9 +37,9 @@ impl Side {
     /// The words for people.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Top => "Top",
-            Self::Front => "Front",
-            Self::Right => "Side",
+            Self::Top => say!("flat.top"),
+            Self::Front => say!("flat.front"),
+            Self::Right => say!("flat.side"),
         }
     }
 

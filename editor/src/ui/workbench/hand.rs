@@ -9,6 +9,7 @@ use super::Workbench;
 use super::history::Script;
 use super::log::Level;
 use super::undo::{Change, Content, Target};
+use crate::ui::messages::say;
 
 /// What came of a line of the console.
 #[derive(Debug)]
@@ -31,7 +32,10 @@ impl Workbench {
     /// A sentence that says why it can't be.
     pub fn set_field(&mut self, entity: Entity, path: &str, value: Value) -> Result<(), String> {
         let name = self.name_kept(entity)?;
-        self.set_fields(&format!("{path} of {name}"), &[(entity, path, value)])
+        self.set_fields(
+            &say!("hand.field_of", path = path, name = name),
+            &[(entity, path, value)],
+        )
     }
 
     /// Changes fields of entities by hand, in one step that `what` names.
@@ -57,7 +61,9 @@ impl Workbench {
     ) -> Result<Change, String> {
         let (mut changes, result) = self.change_fields(&[(entity, path, value)]);
         result?;
-        changes.pop().ok_or_else(|| "no scene is loaded".to_owned())
+        changes
+            .pop()
+            .ok_or_else(|| say!("hand.no_scene_is_loaded").to_owned())
     }
 
     /// Changes fields, those before the first that can't be.
@@ -67,7 +73,7 @@ impl Workbench {
     ) -> (Vec<Change>, Result<(), String>) {
         let shown = self.scenes.shown().unwrap_or_default().to_owned();
         let Some(scene) = self.scenes.scene_mut() else {
-            return (Vec::new(), Err("no scene is loaded".to_owned()));
+            return (Vec::new(), Err(say!("hand.no_scene_is_loaded").to_owned()));
         };
         let entities: Vec<Entity> = fields.iter().map(|(entity, ..)| *entity).collect();
         let names = match scene.keep_names(&entities) {
@@ -87,7 +93,7 @@ impl Workbench {
         let (count, result) = overlays.set_many(scene, fields);
         let mut changes = Vec::with_capacity(count);
         for (((_, path, value), name), before) in fields.iter().zip(names).zip(before).take(count) {
-            self.note_field(&name, path, value, "changed by hand");
+            self.note_field(&name, path, value, say!("hand.changed_by_hand"));
             changes.push(Change {
                 target: Target::Field {
                     entity: name,
@@ -103,7 +109,7 @@ impl Workbench {
 
     fn name_kept(&self, entity: Entity) -> Result<String, String> {
         let scene = self.scenes.scene();
-        let scene = scene.ok_or_else(|| "no scene is loaded".to_owned())?;
+        let scene = scene.ok_or_else(|| say!("hand.no_scene_is_loaded").to_owned())?;
         scene.keeps_by_name(entity)
     }
 
@@ -117,12 +123,12 @@ impl Workbench {
         let name = self.scenes.shown().unwrap_or_default().to_owned();
         let overlays = self.overlays.entry(name).or_default();
         let Some(scene) = self.scenes.scene_mut() else {
-            return Err("no scene is loaded".to_owned());
+            return Err(say!("hand.no_scene_is_loaded").to_owned());
         };
         let found = scene.world.find(entity);
-        let found = found.ok_or_else(|| format!("nothing is called `{entity}` now"))?;
+        let found = found.ok_or_else(|| say!("hand.nothing_is_called_now", entity = entity))?;
         overlays.set(scene, found, path, value.clone())?;
-        self.note_field(entity, path, value, "changed by hand");
+        self.note_field(entity, path, value, say!("hand.changed_by_hand"));
         self.canvas.invalidate();
         Ok(())
     }
@@ -144,11 +150,11 @@ impl Workbench {
         });
         let whose = match entities {
             [one] => one.clone(),
-            all => format!("{} entities", all.len()),
+            all => say!("hand.entities", all = all.len()),
         };
         let what = match path {
-            Some(path) => format!("{path} of {whose} back to the script"),
-            None => format!("{whose} back to the script"),
+            Some(path) => say!("hand.of_back_to_the_script", path = path, whose = whose),
+            None => say!("hand.back_to_the_script", whose = whose),
         };
         self.lift(what, changes);
     }
@@ -163,7 +169,8 @@ impl Workbench {
         }
         changes.extend(self.lift_structure());
         self.undo.seal();
-        self.undo.note("all back to the script".to_owned(), changes);
+        self.undo
+            .note(say!("hand.all_back_to_the_script").to_owned(), changes);
         self.undo.seal();
     }
 
@@ -187,7 +194,7 @@ impl Workbench {
             overlays.reset(scene, entity, path);
         });
         if let Some(script) = script {
-            self.note_field(entity, path, &script, "back to the script's value");
+            self.note_field(entity, path, &script, say!("hand.back_to_the_script_value"));
         }
     }
 
@@ -196,7 +203,7 @@ impl Workbench {
         let edits = self.overlays_now().into_iter().flat_map(Overlays::edits);
         let edits = edits.map(|(edit, _)| {
             let line = edit.line();
-            line.unwrap_or_else(|| format!("// {}: scripts have no words for it", edit.words()))
+            line.unwrap_or_else(|| say!("hand.scripts_have_no_words_for_it", words = edit.words()))
         });
         let all = self.overlays_now().into_iter().flat_map(Overlays::iter);
         let lines = all.filter_map(|(entity, path, overlay)| line(entity, path, &overlay.value));
@@ -219,13 +226,39 @@ impl Workbench {
     fn note_field(&mut self, entity: &str, path: &str, value: &Value, what: &str) {
         if let Some(line) = line(entity, path, value) {
             let target = format!("field {entity} {path}");
-            let what = format!("{path} of {entity}, {what}");
+            let what = say!(
+                "hand.field_of_entity_what",
+                path = path,
+                entity = entity,
+                what = what
+            );
             self.history.add(&target, what, Script::Scene, line);
         }
     }
 
     /// Runs a line as scene script on the scene on screen. `None` where there is no scene.
     pub fn evaluate(&mut self, line: &str) -> Option<Evaluated> {
+        let before = self.text_of_scene()?;
+        let what = say!("history.console", line = line.trim());
+        self.as_moment("console", &what, |this| {
+            let evaluated = this.evaluate_now(line);
+            // A line without a value has set something that scripts remember.
+            let is_silent = |it: &Evaluated| matches!(it.result, Ok(None)) && it.printed.is_empty();
+            let works = evaluated.as_ref().is_some_and(|it| it.result.is_ok());
+            let silent = evaluated.as_ref().is_some_and(is_silent);
+            let changed = silent || works && this.text_of_scene() != Some(before);
+            (evaluated, changed)
+        })
+    }
+
+    /// The scene on screen as its file would have it; `None` where there is none, empty where it has no
+    /// words for something.
+    fn text_of_scene(&mut self) -> Option<String> {
+        let scene = self.scenes.scene_mut()?;
+        Some(scene.to_text().unwrap_or_default())
+    }
+
+    fn evaluate_now(&mut self, line: &str) -> Option<Evaluated> {
         let scene = self.scenes.scene_mut()?;
         let result = scene.evaluate(line);
         let printed = scene.take_log();
@@ -235,7 +268,7 @@ impl Workbench {
         }
         match &result {
             Ok(_) => {
-                let what = "typed into the console";
+                let what = say!("hand.typed_into_the_console");
                 self.history.add("", what, Script::Scene, line.to_owned());
             }
             Err(problem) => self.log.problem(problem),

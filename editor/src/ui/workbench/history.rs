@@ -8,6 +8,7 @@ use lightbench::world::glam::Vec3;
 
 use super::Workbench;
 use super::clock::STEP;
+use crate::ui::messages::say;
 
 /// The kind of script that a line belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,8 +23,8 @@ impl Script {
     /// Its name in a comment.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Scene => "scene script",
-            Self::Experiment => "experiment",
+            Self::Scene => say!("history.scene_script"),
+            Self::Experiment => say!("history.experiment"),
         }
     }
 }
@@ -127,7 +128,7 @@ impl Workbench {
         if moved {
             let (eye, pivot) = (self.camera.position(), self.camera.pivot());
             if let Some(line) = scene.camera_line(eye, pivot) {
-                let what = "the camera, if the script does not move it in each step";
+                let what = say!("history.the_camera_if_the_script_does");
                 self.history.add("camera", what, Script::Scene, line);
             }
         } else if let Some(before) = first {
@@ -137,7 +138,7 @@ impl Workbench {
             let same = before.view.abs_diff_eq(home.view, 1e-6);
             let target: Vec3 = home.position() + ahead(&home);
             if let Some(line) = scene.camera_line(home.position(), target).filter(|_| !same) {
-                let what = "the scene's own camera again";
+                let what = say!("history.the_scene_own_camera_again");
                 self.history.add("camera", what, Script::Scene, line);
             }
         }

@@ -10,6 +10,7 @@ use lightbench::world::glam::DVec3;
 use lightbench::world::{Entity, Light, LightKind, Name};
 
 use super::Workbench;
+use crate::ui::messages::say;
 
 /// What one lamp adds to the pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,9 +103,9 @@ impl Workbench {
         });
         match task {
             Ok(task) => self.lighting.task = Some(task),
-            Err(error) => self.log.error(format!(
-                "The light at the pixel is not computed, because no thread could be started: {error}"
-            )),
+            Err(error) => self
+                .log
+                .error(say!("lighting.the_light_at_the_pixel_is", error = error)),
         }
     }
 

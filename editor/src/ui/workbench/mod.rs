@@ -12,6 +12,7 @@ pub mod clock;
 pub mod comparing;
 pub mod compiling;
 mod drawing;
+mod entering;
 pub mod extent;
 pub mod fields;
 pub mod flat;
@@ -32,6 +33,7 @@ pub mod probing;
 mod project;
 pub mod reporting;
 pub mod resolution;
+mod resuming;
 mod returning;
 mod running;
 pub mod saving;
@@ -47,6 +49,7 @@ pub mod trends;
 pub mod undo;
 mod viewing;
 pub mod viewports;
+pub mod views;
 mod watching;
 
 use std::collections::BTreeMap;
@@ -75,7 +78,8 @@ use self::play::Before;
 use self::probing::Probing;
 use self::reporting::{Reporting, WorkerOptions};
 use self::resolution::Resolution;
-use self::scenes::{Loaded, Scenes};
+use self::resuming::Saved;
+use self::scenes::Scenes;
 use self::second::Second;
 use self::selection::Selection;
 use self::stepping::Stop;
@@ -84,8 +88,10 @@ use self::trends::Trends;
 use self::undo::Undo;
 use self::viewing::Arriving;
 use self::viewports::Viewport;
+use self::views::Views;
 use self::watching::{Touched, Watch};
 use super::EditorOptions;
+use crate::ui::messages::say;
 
 /// Called from any thread when there is something for [`Workbench::tick`].
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -106,8 +112,10 @@ pub struct Workbench {
     gpu_options: GpuOptions,
     /// What lies over the scripts of the scenes, by their names.
     overlays: BTreeMap<String, Overlays>,
+    /// What lay over them when they were saved.
+    saved: Saved,
     /// What stop gives back.
-    before: Option<Before>,
+    before: Option<Arc<Before>>,
     /// Whether a mistake that is shown came up while time ran.
     ran_into_a_problem: bool,
     /// What to call the next moment in the history.
@@ -163,6 +171,8 @@ pub struct Workbench {
     pub history: History,
     /// What can be taken back.
     pub undo: Undo,
+    /// What was looked at.
+    pub views: Views,
     /// A second pipeline beside the first.
     pub comparing: Comparing,
     /// The report that is being made.
@@ -179,10 +189,10 @@ impl Workbench {
         let summary = &gpu.summary;
         log.info(format!("{} ({})", summary.name, summary.driver_info));
         if summary.software {
-            log.warn("The processor draws: times are not those of a graphics card.");
+            log.warn(say!("workbench.the_processor_draws_times_are_not"));
         }
         for missing in &summary.missing {
-            log.warn(format!("The adapter lacks {missing}."));
+            log.warn(say!("workbench.the_adapter_lacks", missing = missing));
         }
         let resolution = Resolution::new(summary.software);
         let renderer = Renderer::new(gpu);
@@ -210,12 +220,14 @@ impl Workbench {
             probing: Probing::default(),
             history: History::default(),
             undo: Undo::default(),
+            views: Views::default(),
             comparing: Comparing::default(),
             reporting: Reporting::default(),
             notebook: Notebook::default(),
             arriving: None,
             worker: options.worker,
             overlays: BTreeMap::new(),
+            saved: Saved::new(),
             before: None,
             ran_into_a_problem: false,
             noted_time: None,
@@ -244,8 +256,10 @@ impl Workbench {
 
     /// Goes on with another device after one was lost. Scene, camera, time and settings stay.
     pub fn move_to(&mut self, gpu: Gpu) {
-        self.log
-            .warn(format!("Drawing goes on with {}.", gpu.summary.name));
+        self.log.warn(say!(
+            "workbench.drawing_goes_on_with",
+            name = gpu.summary.name
+        ));
         self.resolution = Resolution::new(gpu.summary.software);
         let request = self.renderer.inspector().request().cloned();
         self.renderer = Renderer::new(gpu);
@@ -289,18 +303,24 @@ impl Workbench {
 
     /// Swaps the pipeline; scene, camera and time stay.
     pub fn select_pipeline(&mut self, name: &str) {
-        let before = self.pipelines.shown().map(str::to_owned);
-        self.pipelines.select(name);
-        self.pipeline_shown(before.as_deref());
-        self.did("pipeline", format!("the pipeline {name}"));
+        let what = say!("history.pipeline", name = name);
+        self.as_place("pipeline", &what, false, |this| {
+            let before = this.pipelines.shown().map(str::to_owned);
+            this.pipelines.select(name);
+            this.pipeline_shown(before.as_deref());
+            this.did("pipeline", say!("workbench.the_pipeline", name = name));
+        });
     }
 
     /// Loads another scene; until it is ready the present one stays.
     pub fn select_scene(&mut self, name: &str) {
-        self.arriving = None;
-        self.scenes.select(name, None);
-        self.scenes.poll();
-        self.did("scene", format!("the scene {name}"));
+        let what = say!("history.scene", name = name);
+        self.as_place("scene", &what, true, |this| {
+            this.arriving = None;
+            this.scenes.select(name, None);
+            this.scenes.poll();
+            this.did("scene", say!("workbench.the_scene", name = name));
+        });
     }
 
     /// All mistakes that keep the newest state off the screen.
@@ -374,6 +394,7 @@ impl Workbench {
         }
         self.follow_camera();
         self.note_camera();
+        self.travel();
         if let Some(scene) = self.scenes.scene() {
             self.selection.refresh(scene, self.scenes.swaps());
         }
@@ -421,75 +442,22 @@ impl Workbench {
                 News::Compiled(name, took) => {
                     let title = self.library.pipeline_title(&name).to_owned();
                     let ms = took.as_secs_f64() * 1e3;
-                    self.log.info(format!("{title}: built in {ms:.0} ms."));
+                    self.log.info(say!(
+                        "workbench.built_in_ms",
+                        title = title,
+                        ms = format_args!("{ms:.0}")
+                    ));
                 }
                 News::Values(_) => self.canvas.invalidate(),
                 News::Failed(_, problems) => self.log_problems(&problems),
-                News::LeftOut(name, settings) => self.log.warn(format!(
-                    "{name}: no longer set, because the file does not take it: {}.",
-                    settings.join(", ")
+                News::LeftOut(name, settings) => self.log.warn(say!(
+                    "workbench.no_longer_set_because_the_file",
+                    name = name,
+                    parameters = settings.join(", ")
                 )),
             }
         }
         self.pipeline_shown(before.as_deref());
-    }
-
-    fn take_scene(&mut self) {
-        match self.scenes.poll() {
-            None => {}
-            Some(Loaded::Failed(problems)) => {
-                self.arriving = None;
-                self.log_problems(&problems);
-            }
-            Some(Loaded::Scene { again }) => self.new_scene(again),
-        }
-    }
-
-    fn new_scene(&mut self, again: bool) {
-        // A view begins at the beginning.
-        let again = again && !self.is_arriving();
-        self.renderer.reset_scene();
-        self.comparing.wait_no_more();
-        self.timings = Timings::default();
-        let name = self.scenes.shown().unwrap_or_default().to_owned();
-        let Some(scene) = self.scenes.scene_mut() else {
-            return;
-        };
-        self.timings.stepped(scene.system_times());
-        let animated = scene.moves();
-        self.ran_into_a_problem = false;
-        if let Some(overlays) = self.overlays.get_mut(&name) {
-            overlays.lay_on(scene);
-        }
-        if again {
-            // Who works on a file has chosen what to look through.
-            scene.take_pipeline_choice();
-
-            self.clock.refresh();
-            self.play_goes_on();
-        } else {
-            self.before = None;
-            // Its camera is another one, which nobody moved.
-            self.noted_view = None;
-            self.watched_camera = None;
-            // Names are those of another scene's entities.
-            self.undo.clear();
-            self.clock.rewind();
-            self.clock.playing = animated;
-            self.camera.reset();
-            self.follow_camera();
-            let distance = self.typical_distance();
-            if let Some(distance) = distance {
-                self.camera.suit(distance);
-            }
-            self.look_at_new_scene(distance);
-            if self.is_arriving() {
-                self.begin_arrival();
-            } else {
-                self.follow_pipeline_choice();
-            }
-        }
-        self.canvas.invalidate();
     }
 
     fn log_problems(&mut self, problems: &Problems) {

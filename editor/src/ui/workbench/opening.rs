@@ -5,6 +5,7 @@ use std::path::Path;
 use lightbench::script::SCENES;
 
 use super::Workbench;
+use crate::ui::messages::say;
 
 /// The scene that shows a model.
 const SHOWROOM: &str = "showroom";
@@ -25,26 +26,29 @@ impl Workbench {
             Some("rhai" | "scene") => false,
             Some("obj" | "gltf" | "glb") => true,
             _ => {
-                return Err(format!(
-                    "{} is no scene, pipeline or model: the editor opens files that end in .rhai, \
-                     .scene, .obj, .gltf and .glb",
-                    file.display()
+                return Err(say!(
+                    "opening.is_no_scene_pipeline_or_model",
+                    file = file.display()
                 ));
             }
         };
         let path = self.files.grant(file).map_err(|error| error.to_string())?;
         self.scenes.use_files(self.files.clone());
         if is_model {
-            self.select_scene(SHOWROOM);
-            self.set_scene_parameter("model", Some(path.into()));
+            let what = say!("history.model", path = file.display());
+            self.as_place("scene", &what, true, |this| {
+                this.select_scene(SHOWROOM);
+                this.change_scene_parameter("model", Some(path.into()));
+            });
             return Ok(());
         }
         let folder = file.parent().and_then(Path::file_name);
         let is_pipeline = path.starts_with(PIPELINES) || folder.is_some_and(|it| it == "pipelines");
         if is_pipeline && path.starts_with('@') {
-            return Err(format!(
-                "{} is a pipeline outside the project: copy it to {PIPELINES} of a project first",
-                file.display()
+            return Err(say!(
+                "opening.is_a_pipeline_outside_the_project",
+                file = file.display(),
+                pipelines = PIPELINES
             ));
         }
         if is_pipeline {

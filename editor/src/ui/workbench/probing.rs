@@ -6,6 +6,7 @@ use lightbench::render::inspect::{
 
 use super::Workbench;
 use super::beside::Results;
+use crate::ui::messages::say;
 
 /// What one pass did to one part of one target, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -131,7 +132,7 @@ impl Workbench {
         if probed.searched {
             let first = probed.invalid.first();
             let text = match first {
-                None => "Every value that a pass writes is a finite number.".to_owned(),
+                None => say!("probing.every_value_that_a_pass_writes").to_owned(),
                 Some(first) => found(first, &pass_of(first.pass)),
             };
             self.log.info(text.clone());
@@ -139,7 +140,7 @@ impl Workbench {
         }
         if probed.cut_off {
             self.log
-                .warn("The pipeline writes more parts of targets than can be read at once.");
+                .warn(say!("probing.the_pipeline_writes_more_parts_of"));
         }
         let inspector = self.renderer.inspector();
         self.probing.waiting = inspector.is_probing() && !self.beside.reads();
@@ -165,10 +166,13 @@ fn in_words(value: &PixelValue, pass_of: impl Fn(usize) -> String) -> Written {
 
 fn found(invalid: &Invalid, pass: &str) -> String {
     let (x, y) = invalid.first;
-    format!(
-        "The pass {pass} leaves values in {}{} that are no numbers: {} of its texels, first at {x}, {y}.",
-        invalid.target,
-        part_in_words(invalid.slice, invalid.sample, Aspect::Main),
-        invalid.texels
+    say!(
+        "probing.the_pass_leaves_values_in_that",
+        pass = pass,
+        target = invalid.target,
+        sample = part_in_words(invalid.slice, invalid.sample, Aspect::Main),
+        texels = invalid.texels,
+        x = x,
+        y = y
     )
 }

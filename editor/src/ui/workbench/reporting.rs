@@ -13,6 +13,7 @@ use lightbench::lab::study::{
 use lightbench::render::GpuOptions;
 
 use super::Workbench;
+use crate::ui::messages::say;
 use crate::viewpoint::Viewpoint;
 use crate::viewpoint::plan::{Effort, plan};
 
@@ -81,21 +82,17 @@ impl Workbench {
     /// A sentence that says why there can be none.
     pub fn report(&mut self) -> Result<(), String> {
         if self.reporting.task.is_some() {
-            return Err("A report is being made already: wait for it, or stop it.".to_owned());
+            return Err(say!("reporting.a_report_is_being_made_already").to_owned());
         }
         let Some(project) = self.files.project().map(Path::to_owned) else {
-            return Err(
-                "Reports are written into a project, and none is open: make one with `lightbench new \
-                 project DIR`, and start the editor there."
-                    .to_owned(),
-            );
+            return Err(say!("reporting.reports_are_written_into_a_project").to_owned());
         };
         let views: Vec<Viewpoint> = [self.viewpoint(), self.other_viewpoint()]
             .into_iter()
             .flatten()
             .collect();
         if views.is_empty() {
-            return Err("There is no picture yet.".to_owned());
+            return Err(say!("reporting.there_is_no_picture_yet").to_owned());
         }
         // Paths as the loaders take them, not as people read them.
         let mut plain = views.clone();
@@ -126,7 +123,8 @@ impl Workbench {
             wake();
             made
         });
-        self.reporting.task = Some(task.map_err(|error| format!("No thread for it: {error}"))?);
+        self.reporting.task =
+            Some(task.map_err(|error| say!("reporting.no_thread_for_it", error = error))?);
         self.reporting.folder = folder;
         self.reporting.last = None;
         Ok(())
@@ -148,10 +146,12 @@ impl Workbench {
                 for warning in &report.warnings {
                     self.log.warn(warning.clone());
                 }
-                self.log
-                    .info(format!("The report is {}.", report.page.display()));
+                self.log.info(say!(
+                    "reporting.the_report_is",
+                    page = report.page.display()
+                ));
             }
-            Err(error) => self.log.error(format!("No report: {error}")),
+            Err(error) => self.log.error(say!("reporting.no_report", error = error)),
         }
         self.reporting.last = Some(result);
     }
@@ -185,10 +185,10 @@ fn make(order: &Order, progress: &Progress) -> Result<Report, String> {
     match ran {
         Ok(()) => {}
         Err(ProcessError::Cancelled(_)) => {
-            return Err(format!(
-                "it was stopped. What was measured is in {}; `{}` goes on with it",
-                order.folder.display(),
-                order.command_line
+            return Err(say!(
+                "reporting.it_was_stopped_what_was_measured",
+                folder = order.folder.display(),
+                command_line = order.command_line
             ));
         }
         Err(error) => return Err(words(&error)),
@@ -206,7 +206,7 @@ fn launch(order: &Order) -> Result<Launch, String> {
     let program = match &order.worker.program {
         Some(program) => program.clone(),
         None => std::env::current_exe()
-            .map_err(|error| format!("can't find this program's own file: {error}"))?,
+            .map_err(|error| say!("reporting.cant_find_this_program_own_file", error = error))?,
     };
     let mut arguments: Vec<OsString> = Vec::new();
     if let Some(project) = order.files.project() {

@@ -6,6 +6,7 @@ use lightbench::render::GpuError;
 
 use super::Workbench;
 use super::viewports::Viewport;
+use crate::ui::messages::say;
 
 impl Workbench {
     pub(super) fn take_measurements(&mut self) {
@@ -64,8 +65,10 @@ impl Workbench {
     pub(super) fn device_failed(&mut self, error: GpuError) {
         if let GpuError::Lost(reason) = &error {
             if self.lost.is_none() {
-                self.log
-                    .error(format!("The graphics device was lost: {reason}"));
+                self.log.error(say!(
+                    "returning.the_graphics_device_was_lost",
+                    reason = reason
+                ));
             }
             self.lost = Some(reason.clone());
         } else {

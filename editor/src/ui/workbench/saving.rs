@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use lightbench::script::SCENE_EXTENSION;
 
 use super::Workbench;
+use crate::ui::messages::say;
 
 /// The folder in which saved scenes lie.
 const FOLDER: &str = "scripts/scenes";
@@ -28,10 +29,10 @@ impl Workbench {
         let plain = name.strip_suffix(&format!(".{SCENE_EXTENSION}"));
         let plain = plain.unwrap_or(name);
         if plain.is_empty() {
-            return Err("give the file a name".to_owned());
+            return Err(say!("saving.give_the_file_a_name").to_owned());
         }
         let Some(scene) = self.scenes.scene_mut() else {
-            return Err("no scene is loaded".to_owned());
+            return Err(say!("saving.no_scene_is_loaded").to_owned());
         };
         let update = scene.has_update();
         let is_path = Path::new(plain).is_absolute();
@@ -45,11 +46,11 @@ impl Workbench {
             let written = self.files.write(&path, text.as_bytes());
             written.map_err(|error| error.to_string())?
         };
-        self.log.info(format!("Saved as {}.", file.display()));
+        self.was_saved();
+        self.log
+            .info(say!("saving.saved_as", file = file.display()));
         if update {
-            self.log.warn(
-                "The script's `update` is not part of the file: what only it moves will stand still.",
-            );
+            self.log.warn(say!("saving.the_script_update_is_not_part"));
         }
         self.library.refresh(&self.files, &self.wake);
         Ok(file)

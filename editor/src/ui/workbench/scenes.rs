@@ -10,6 +10,7 @@ use lightbench::render::{Place, Problem, Problems};
 use lightbench::script::{Limits, Scene, SettingValue, Settings, load_scene_again};
 
 use super::Wake;
+use crate::ui::messages::say;
 
 /// Paths that a load has read or looked for.
 type Reads = Arc<Mutex<BTreeSet<String>>>;
@@ -117,6 +118,17 @@ impl Scenes {
     /// Values that somebody gave to the selected scene's parameters.
     pub fn settings(&self) -> Option<&Settings> {
         self.settings.get(&self.selected)
+    }
+
+    /// Values that somebody gave to the parameters of scenes, by the names of these.
+    pub fn all_settings(&self) -> impl Iterator<Item = (&str, &Settings)> {
+        let all = self.settings.iter().filter(|(_, all)| !all.is_empty());
+        all.map(|(name, settings)| (name.as_str(), settings))
+    }
+
+    /// Gives values to the parameters of a scene, for when it is loaded next.
+    pub fn remember(&mut self, name: &str, settings: Settings) {
+        self.settings.insert(name.to_owned(), settings);
     }
 
     /// How far a load is, if one runs.
@@ -271,7 +283,7 @@ impl Scenes {
         match task {
             Ok(task) => self.loading = Some(Loading { name, task, reads }),
             Err(error) => {
-                let text = format!("no thread to load the scene: {error}");
+                let text = say!("scenes.no_thread_to_load_the_scene", error = error);
                 self.problems = Some(Problem::new(Place::file(name), text).into());
             }
         }

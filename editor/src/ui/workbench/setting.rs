@@ -6,6 +6,7 @@ use lightbench::world::Entity;
 use super::Workbench;
 use super::history::Script;
 use super::undo::{Change, Content, Target};
+use crate::ui::messages::say;
 
 impl Workbench {
     /// Gives a parameter of the selected pipeline a value, or with `None` its default.
@@ -62,8 +63,10 @@ impl Workbench {
             before: before.map(Content::Setting),
             after: after.map(Content::Setting),
         };
-        self.undo
-            .note(format!("the parameter {parameter}"), vec![change]);
+        self.undo.note(
+            say!("setting.the_parameter", parameter = parameter),
+            vec![change],
+        );
     }
 
     pub(super) fn change_pipeline_parameter(
@@ -77,7 +80,7 @@ impl Workbench {
         }
         self.did(
             &format!("pipeline parameter {parameter}"),
-            format!("the pipeline's parameter {parameter}"),
+            say!("setting.the_pipeline_parameter", parameter = parameter),
         );
     }
 
@@ -88,7 +91,7 @@ impl Workbench {
         }
         self.did(
             &format!("scene parameter {parameter}"),
-            format!("the scene's parameter {parameter}"),
+            say!("setting.the_scene_parameter", parameter = parameter),
         );
     }
 
@@ -99,12 +102,12 @@ impl Workbench {
         value: &SettingValue,
     ) -> Result<(), String> {
         let Some(scene) = self.scenes.scene_mut() else {
-            return Err("no scene is loaded".to_owned());
+            return Err(say!("setting.no_scene_is_loaded").to_owned());
         };
         scene.set_behaviour(entity, name, value)?;
         if let Some(line) = scene.behaviour_line(entity) {
             let target = format!("behaviour {entity} {name}");
-            let what = format!("the behaviour's parameter {name}");
+            let what = say!("setting.the_behaviour_parameter", name = name);
             self.history.add(&target, what, Script::Scene, line);
         }
         Ok(())

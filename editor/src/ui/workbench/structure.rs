@@ -13,6 +13,7 @@ use lightbench::world::{
 use super::Workbench;
 use super::history::Script;
 use super::undo::{Change, Content, Target};
+use crate::ui::messages::say;
 
 /// Whether an entity, or one above it, is locked.
 pub fn is_locked(world: &World, entity: Entity) -> bool {
@@ -69,9 +70,10 @@ impl Workbench {
     /// # Errors
     /// A sentence that says why it can't be. Then nothing has changed.
     pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
+        let chosen = self.names_chosen();
         let edit = self.do_edit(edit)?;
         let what = edit.words();
-        self.note_structure(what, vec![done(edit)]);
+        self.note_structure(what, vec![done(edit)], chosen);
         Ok(())
     }
 
@@ -153,11 +155,11 @@ impl Workbench {
         let of = Who::of(&scene.world, &entities);
         let to_who = to.and_then(|to| Who::of(&scene.world, &[to]).pop());
         if to.is_some() && to_who.is_none() {
-            return Err("the entity is gone".to_owned());
+            return Err(say!("structure.the_entity_is_gone").to_owned());
         }
         let into = to_world(&scene.world, to).inverse();
         if !into.is_finite() {
-            return Err("what is scaled to nothing can't have others below it".to_owned());
+            return Err(say!("structure.what_is_scaled_to_nothing_cant").to_owned());
         }
         let mut places = Vec::new();
         for entity in entities {
@@ -166,11 +168,12 @@ impl Workbench {
                 let local = into * to_world(&scene.world, Some(entity));
                 let (scale, rotation, translation) = local.to_scale_rotation_translation();
                 if !(scale.is_finite() && rotation.is_finite() && translation.is_finite()) {
-                    return Err("it has no place that could be kept below that".to_owned());
+                    return Err(say!("structure.it_has_no_place_that_could").to_owned());
                 }
                 places.push((entity, old, local));
             }
         }
+        let chosen = self.names_chosen();
         let edit = self.do_edit(Edit::Parent { of, to: to_who })?;
         let what = edit.words();
         let mut changes = vec![done(edit)];
@@ -198,7 +201,7 @@ impl Workbench {
                 }
             }
         }
-        self.note_structure(what, changes);
+        self.note_structure(what, changes, chosen);
         Ok(())
     }
 
@@ -228,13 +231,17 @@ impl Workbench {
             }
         }
         if fields.is_empty() {
-            return Err("nothing of it is drawn or shines".to_owned());
+            return Err(say!("structure.nothing_of_it_is_drawn_or").to_owned());
         }
         let changed: Vec<Entity> = fields.iter().map(|(entity, ..)| *entity).collect();
         scene.keep_names(&changed)?;
         let what = format!(
             "{} {}",
-            if on { "Show" } else { "Hide" },
+            if on {
+                say!("structure.show")
+            } else {
+                say!("structure.hide")
+            },
             self.words_for(entities)
         );
         self.undo.seal();
@@ -311,13 +318,17 @@ impl Workbench {
             self.history.add("", edit.words(), Script::Scene, line);
         }
         self.canvas.invalidate();
+        self.absorb_view();
         Ok(edit)
     }
 
     /// Takes a change of the structure back, which must be the last one.
     pub(super) fn take_back_edit(&mut self, edit: &Edit) -> Result<(), String> {
         if self.last_edit().as_ref() != Some(edit) {
-            return Err(format!("`{}` was not the last change", edit.words()));
+            return Err(say!(
+                "structure.was_not_the_last_change",
+                words = edit.words()
+            ));
         }
         self.on_overlays(|overlays, scene| {
             overlays.undo_edit(scene);
@@ -345,14 +356,22 @@ impl Workbench {
             ([one], Some(world)) => Who::of(world, &[*one])
                 .first()
                 .map_or_else(String::new, Who::words),
-            (all, _) => format!("{} entities", all.len()),
+            (all, _) => say!("structure.entities", all = all.len()),
         }
     }
 
-    fn note_structure(&mut self, what: String, changes: Vec<Change>) {
+    fn note_structure(&mut self, what: String, changes: Vec<Change>, chosen: Vec<String>) {
         self.undo.seal();
-        self.undo.note(what, changes);
+        self.undo.note_with(what, changes, chosen);
         self.undo.seal();
+    }
+
+    /// The names of what is chosen, of those that have one.
+    fn names_chosen(&self) -> Vec<String> {
+        let chosen: Vec<Entity> = self.selection.entities().collect();
+        let mut names = self.names_of(&chosen);
+        names.retain(|name| !name.is_empty());
+        names
     }
 }
 
@@ -365,5 +384,5 @@ fn done(edit: Edit) -> Change {
 }
 
 fn no_scene() -> String {
-    "no scene is loaded".to_owned()
+    say!("structure.no_scene_is_loaded").to_owned()
 }

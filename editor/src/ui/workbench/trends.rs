@@ -7,6 +7,8 @@ use lightbench::render::queries::Measured;
 use lightbench::render::{FrameStatistics, PassStatistics};
 use lightbench::script::plots::Plot;
 
+use crate::ui::messages::{message, say};
+
 /// Moments that a curve keeps.
 const MOST: usize = 1200;
 
@@ -26,12 +28,12 @@ pub enum Trend {
 }
 
 impl Trend {
-    /// All of them, with their words.
+    /// All of them, with the messages of their words.
     pub const ALL: [(Self, &'static str); 4] = [
-        (Self::Frames, "Frame time, ms"),
-        (Self::Passes, "Passes, ms"),
-        (Self::Lights, "Lights and objects"),
-        (Self::Memory, "Memory, MB"),
+        (Self::Frames, message!("trends.frame_time_ms")),
+        (Self::Passes, message!("trends.passes_ms")),
+        (Self::Lights, message!("trends.lights_and_objects")),
+        (Self::Memory, message!("trends.memory_mb")),
     ];
 }
 
@@ -83,7 +85,7 @@ impl Trends {
         let memory = |bytes: u64| bytes as f64 / MEGABYTE;
         let cpu = statistics.extract_ms + statistics.record_ms;
         let draws = |pass: &PassStatistics| f64::from(pass.draws + pass.dispatches);
-        self.add(now, Trend::Frames, "CPU", cpu);
+        self.add(now, Trend::Frames, say!("trends.cpu"), cpu);
         for (name, value) in [
             ("lights", statistics.lights.into()),
             ("objects", statistics.objects.into()),
@@ -92,10 +94,10 @@ impl Trends {
             self.add(now, Trend::Lights, name, value);
         }
         for (name, bytes) in [
-            ("targets and buffers", statistics.target_bytes),
-            ("meshes and textures", asset_bytes),
-            ("saved by sharing", statistics.saved_bytes),
-            ("uploaded rows", statistics.uploaded_bytes),
+            (say!("trends.targets_and_buffers"), statistics.target_bytes),
+            (say!("trends.meshes_and_textures"), asset_bytes),
+            (say!("trends.saved_by_sharing"), statistics.saved_bytes),
+            (say!("trends.uploaded_rows"), statistics.uploaded_bytes),
         ] {
             self.add(now, Trend::Memory, name, memory(bytes));
         }
@@ -104,7 +106,7 @@ impl Trends {
     /// Takes in what came back from the GPU.
     pub fn measured(&mut self, now: Instant, measured: &Measured) {
         if let Some(total) = measured.total_ms {
-            self.add(now, Trend::Frames, "GPU", total);
+            self.add(now, Trend::Frames, say!("trends.gpu"), total);
         }
         if measured.gpu_ms.len() == self.passes.len() {
             for (index, ms) in measured.gpu_ms.iter().enumerate() {

@@ -7,8 +7,8 @@ use lightbench::script::Settings;
 
 use super::Workbench;
 use super::pipelines::Pipelines;
-use super::sight::Sight;
 use super::viewports::Viewport;
+use crate::ui::messages::say;
 use crate::viewpoint::moment::Steps;
 use crate::viewpoint::{Eye, Viewpoint};
 
@@ -17,10 +17,14 @@ const SLICE: Duration = Duration::from_millis(12);
 
 /// The way to a view that was asked for.
 pub(super) struct Arriving {
-    camera: Eye,
-    steps: Steps,
+    pub(super) camera: Eye,
+    /// The viewport that it is for.
+    pub(super) viewport: Viewport,
+    pub(super) steps: Steps,
     /// Whether its scene is on screen.
-    is_there: bool,
+    pub(super) is_there: bool,
+    /// Whether time runs on from there.
+    pub(super) then_plays: bool,
 }
 
 impl Workbench {
@@ -42,7 +46,24 @@ impl Workbench {
     }
 
     fn viewpoint_of(&self, pipelines: &Pipelines, viewport: Viewport) -> Option<Viewpoint> {
-        let pipeline = pipelines.shown()?;
+        let size = self.canvas_of(viewport).drawn?.size;
+        self.viewpoint_with(pipelines, pipelines.shown()?, viewport, size)
+    }
+
+    /// What there is to see, also where no picture of it can be drawn.
+    pub(super) fn view_to_keep(&self) -> Option<Viewpoint> {
+        let viewport = Viewport::First;
+        let size = self.canvas.drawn.map_or((640, 360), |drawn| drawn.size);
+        self.viewpoint_with(&self.pipelines, self.pipelines.selected(), viewport, size)
+    }
+
+    fn viewpoint_with(
+        &self,
+        pipelines: &Pipelines,
+        pipeline: &str,
+        viewport: Viewport,
+        size: (u32, u32),
+    ) -> Option<Viewpoint> {
         let settings = pipelines.slot(pipeline).map(|slot| slot.settings.clone());
         let scene = self.scenes.shown()?;
         let scene_settings = self
@@ -56,7 +77,7 @@ impl Workbench {
             pipeline_settings: settings.unwrap_or_default(),
             camera: self.eye(viewport),
             time: self.clock.time(),
-            size: self.canvas_of(viewport).drawn?.size,
+            size,
         })
     }
 
@@ -74,7 +95,8 @@ impl Workbench {
         shown
     }
 
-    fn eye(&self, viewport: Viewport) -> Eye {
+    /// From where the scene is seen in a viewport.
+    pub(super) fn eye(&self, viewport: Viewport) -> Eye {
         let camera = self.camera_of(viewport);
         if let Some(flat) = camera.flat() {
             return Eye::Side(*flat);
@@ -89,12 +111,7 @@ impl Workbench {
     /// What a view in words leaves out of what is on the screen, in a sentence.
     pub fn left_out_of_view(&self) -> Option<String> {
         let changed = self.overlays_now().map_or(0, |all| all.iter().count());
-        (changed > 0).then(|| {
-            format!(
-                "The view has the scene as its script says: what was changed by hand ({changed} fields) is \
-                 not in it. Copy all as script, in Entities, has that."
-            )
-        })
+        (changed > 0).then(|| say!("viewing.the_view_has_the_scene_as", changed = changed))
     }
 
     /// Goes to a view: loads its scene anew, swaps to its pipeline and moves time there, and the camera
@@ -103,6 +120,11 @@ impl Workbench {
     /// # Errors
     /// A sentence, where the view names a file outside of the project that nobody has opened.
     pub fn go_to(&mut self, view: &Viewpoint) -> Result<(), String> {
+        let what = say!("history.view", scene = view.scene);
+        self.as_place("view", &what, true, |this| this.go_to_now(view))
+    }
+
+    fn go_to_now(&mut self, view: &Viewpoint) -> Result<(), String> {
         let scene = self.known(&view.scene)?;
         let pipeline = self.known(&view.pipeline)?;
         let mut settings = Settings::new();
@@ -121,12 +143,14 @@ impl Workbench {
         self.clock.playing = false;
         self.arriving = Some(Arriving {
             camera: view.camera.clone(),
+            viewport: self.focus(),
             steps: Steps::to(view.time),
             is_there: false,
+            then_plays: false,
         });
         self.scenes.select(&scene, Some(settings));
         self.scenes.poll();
-        self.did("scene", format!("the scene {scene}"));
+        self.did("scene", say!("viewing.the_scene", scene = scene));
         Ok(())
     }
 
@@ -144,10 +168,7 @@ impl Workbench {
                 || project.is_some_and(|it| folder.starts_with(it))
         });
         if !is_open {
-            return Err(format!(
-                "The view names {name}, which is outside of the project: open that file first, by dropping \
-                 it onto the window, and then the view."
-            ));
+            return Err(say!("viewing.the_view_names_which_is_outside", name = name));
         }
         self.files.grant(path).map_err(|error| error.to_string())
     }
@@ -163,22 +184,15 @@ impl Workbench {
             return;
         };
         arriving.is_there = true;
-        let camera = arriving.camera.clone();
+        let (camera, viewport) = (arriving.camera.clone(), arriving.viewport);
         self.clock.playing = false;
-        match camera {
-            Eye::Scene => self.reset_camera(),
-            Eye::Named(name) => {
-                if !self.cameras().contains(&name) {
-                    self.log.error(format!(
-                        "The view is through the camera {name}, which the scene does not have: this is \
-                         its own one."
-                    ));
-                }
-                self.look_through(Sight::Camera(name));
-            }
-            Eye::Free(free) => self.camera_of_mut(self.focus()).stand(free),
-            Eye::Side(flat) => self.camera_of_mut(self.focus()).show_flat(flat),
+        if let Eye::Named(name) = &camera
+            && !self.cameras().contains(name)
+        {
+            self.log
+                .error(say!("viewing.the_view_is_through_the_camera", name = name));
         }
+        self.look_with(viewport, camera);
     }
 
     /// Goes some steps on towards the moment of a view.
@@ -190,7 +204,8 @@ impl Workbench {
         while began.elapsed() < SLICE {
             let next = self.arriving.as_mut().and_then(|way| way.steps.next());
             let Some((time, step)) = next else {
-                self.arriving = None;
+                self.clock.playing = self.arriving.take().is_some_and(|way| way.then_plays);
+                self.absorb_view();
                 if let Some(left_out) = self.left_out_of_view() {
                     self.log.warn(left_out);
                 }

@@ -8,6 +8,7 @@ use lightbench::assets::watch::{Changes, Watcher};
 
 use super::Wake;
 use super::log::Log;
+use crate::ui::messages::say;
 
 /// What changed on the disk.
 #[derive(Debug, Default)]
@@ -28,7 +29,7 @@ impl Watch {
         match Watcher::new(files, move || wake()) {
             Ok(watcher) => {
                 if let Some(project) = files.project() {
-                    log.info(format!("Watching {}.", project.display()));
+                    log.info(say!("watching.watching", project = project.display()));
                 }
                 Self(Some(watcher))
             }

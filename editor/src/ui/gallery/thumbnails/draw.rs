@@ -10,6 +10,7 @@ use lightbench::script::{Scene, Settings, load_pipeline, load_scene};
 
 use super::super::cards::Opens;
 use super::super::kept_pictures::{self, Inputs, Picture};
+use crate::ui::messages::say;
 
 /// Pixels of a picture.
 const SIZE: (u32, u32) = (320, 180);
@@ -57,7 +58,7 @@ impl Studio {
         progress: &Progress,
     ) -> Result<(Picture, Inputs), String> {
         match opens {
-            Opens::Script => Err("an experiment".to_owned()),
+            Opens::Script => Err(say!("gallery.an_experiment").to_owned()),
             Opens::Scene => {
                 let (scene, mut read) = self.scene(path, progress)?;
                 let built = self.pipeline.take().filter(|(_, made_of)| {

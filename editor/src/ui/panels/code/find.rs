@@ -7,6 +7,7 @@ use egui::{Key, Modifiers, TextEdit, Ui};
 use crate::ui::code::Spot;
 use crate::ui::code::document::Document;
 use crate::ui::code::search::{byte_of, find_all};
+use crate::ui::messages::say;
 
 /// What the places found were found in.
 #[derive(PartialEq, Eq)]
@@ -126,7 +127,7 @@ impl Find {
     ) -> Option<Wish> {
         let mut wish = None;
         ui.horizontal(|ui| {
-            let label = ui.label("Find");
+            let label = ui.label(say!("code.find"));
             let field = TextEdit::singleline(&mut self.wanted).desired_width(150.0);
             let field = ui.add(field).labelled_by(label.id);
             if std::mem::take(&mut self.focus) {
@@ -136,15 +137,15 @@ impl Find {
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let escaped = (field.lost_focus() || field.has_focus())
                 && ui.input(|input| input.key_pressed(Key::Escape));
-            let case = ui.checkbox(&mut self.match_case, "Case");
+            let case = ui.checkbox(&mut self.match_case, say!("code.case"));
             if field.changed() || case.changed() {
                 self.refresh(document);
             }
             let shift = ui.input(|input| input.modifiers.shift);
             let from = byte_of(&document.text, chosen.start);
             let behind = byte_of(&document.text, chosen.end);
-            let previous = ui.button("Previous").clicked();
-            let next = ui.button("Next").clicked();
+            let previous = ui.button(say!("code.previous")).clicked();
+            let next = ui.button(say!("code.next")).clicked();
             if field.changed() {
                 // What is typed is looked for from where the caret is.
                 wish = self.step(from, true);
@@ -159,10 +160,10 @@ impl Find {
             let count = self.found.len();
             ui.weak(match count {
                 _ if self.wanted.is_empty() => String::new(),
-                0 => "not found".to_owned(),
-                count => format!("{} of {count}", self.at + 1),
+                0 => say!("code.not_found").to_owned(),
+                count => say!("code.of", at = self.at + 1, count = count),
             });
-            if ui.small_button("Close").clicked() || escaped {
+            if ui.small_button(say!("code.close")).clicked() || escaped {
                 self.is_open = false;
                 self.has_keys = false;
                 wish = Some(Wish::Back);
@@ -175,7 +176,7 @@ impl Find {
         let typed = self.line.as_mut()?;
         let mut wish = None;
         ui.horizontal(|ui| {
-            let label = ui.label("Go to line");
+            let label = ui.label(say!("code.go_to_line"));
             let field = TextEdit::singleline(typed).desired_width(70.0);
             let field = ui.add(field).labelled_by(label.id);
             if std::mem::take(&mut self.focus) {
@@ -183,7 +184,7 @@ impl Find {
             }
             self.has_keys |= field.has_focus();
             let lines = document.text.matches('\n').count() + 1;
-            ui.weak(format!("1 to {lines}"));
+            ui.weak(say!("code.lines_to", lines = lines));
             let press = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
             if field.lost_focus() || field.has_focus() {
                 if press(Key::Enter) {

@@ -3,6 +3,8 @@
 use egui::{Button, Key, Modifiers, Popup, PopupCloseBehavior, RichText, ScrollArea, TextEdit, Ui};
 use lightbench::assets::files::{Files, Listed, Origin};
 
+use crate::ui::messages::say;
+
 /// The list, while it is open.
 #[derive(Default)]
 pub struct FileList {
@@ -20,7 +22,7 @@ const TEXTS: [&str; 4] = [".rhai", ".wgsl", ".md", ".scene"];
 impl FileList {
     /// Draws the button and, below it, the list. Returns the file that was chosen.
     pub fn show(&mut self, ui: &mut Ui, files: &Files) -> Option<String> {
-        let button = ui.button("Open file");
+        let button = ui.button(say!("code.open_file"));
         let mut chosen = None;
         let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
         let open = popup.is_open();
@@ -32,7 +34,7 @@ impl FileList {
         self.was_open = open;
         popup.show(|ui| {
             ui.set_width(430.0);
-            let label = ui.label("Scripts and shaders, by words of their paths");
+            let label = ui.label(say!("code.scripts_and_shaders_by_words_of"));
             let field = TextEdit::singleline(&mut self.filter).desired_width(f32::INFINITY);
             let field = ui.add(field).labelled_by(label.id);
             if opened {
@@ -65,7 +67,7 @@ impl FileList {
                 }
             });
             if rows.is_empty() {
-                ui.weak("Nothing is called so.");
+                ui.weak(say!("code.nothing_is_called_so"));
             }
             if chosen.is_some() {
                 ui.close();

@@ -1,7 +1,6 @@
 //! Scripts and shaders, to be read and changed beside the picture.
 
 mod find;
-pub mod leaving;
 mod lines;
 mod list;
 mod notes;
@@ -18,6 +17,7 @@ use crate::ui::code::Spot;
 use crate::ui::code::document::Document;
 use crate::ui::editor::Editor;
 use crate::ui::layout::{self, Panel};
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Mistakes that are listed below the text; all are at their lines.
@@ -124,8 +124,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn nothing(ui: &mut Ui) {
-    let text = "Open a script or a shader with the button above, by Ctrl+E the script of the scene, or \
-                by a click on a mistake. Ctrl+S saves, and the picture follows.";
+    let text = say!("code.open_a_script_or_a_shader");
     ui.label(RichText::new(text).weak());
 }
 
@@ -147,7 +146,7 @@ fn tabs(editor: &mut Editor, ui: &mut Ui) {
                 }
                 let cross = ui.add(Button::new("×").small().frame(false));
                 cross.widget_info(|| {
-                    let name = format!("Close {}", document.name());
+                    let name = say!("code.close_file", name = document.name());
                     egui::WidgetInfo::labeled(egui::Role::Button, true, name)
                 });
                 if cross.clicked() || tab.middle_clicked() {
@@ -160,8 +159,8 @@ fn tabs(editor: &mut Editor, ui: &mut Ui) {
             editor.open_code(&path, None);
         }
         let unsaved = editor.code.shown().is_some_and(Document::is_unsaved);
-        let save = ui.add_enabled(unsaved, Button::new("Save"));
-        if save.on_hover_text("Ctrl+S").clicked() {
+        let save = ui.add_enabled(unsaved, Button::new(say!("code.save")));
+        if save.on_hover_text(say!("code.ctrl_s")).clicked() {
             editor.save_shown_file();
         }
     });
@@ -224,7 +223,7 @@ fn body(editor: &mut Editor, ui: &mut Ui, marks: &[Mark]) {
     let (line, column) = text::line_and_column(&document.text, code_panel.field.chosen.end);
     ui.horizontal(|ui| {
         ui.weak(workbench.files().display(&document.path));
-        ui.weak(format!("line {line}, column {column}"));
+        ui.weak(say!("code.line_column", line = line, column = column));
     });
     if let Some(spot) = jump {
         code.going = Some(spot);
@@ -242,7 +241,7 @@ fn mistakes(ui: &mut Ui, marks: &[Mark]) -> Option<Spot> {
     area.show(ui, |ui| {
         for (index, mark) in marks.iter().take(MOST_MISTAKES).enumerate() {
             ui.push_id(index, |ui| {
-                let text = format!("line {}: {}", mark.line, mark.message);
+                let text = say!("code.line", line = mark.line, message = mark.message);
                 let text = RichText::new(text).color(palette.error);
                 let link = ui.add(
                     egui::Label::new(text)

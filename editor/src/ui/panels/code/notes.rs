@@ -5,6 +5,7 @@ use egui::{CornerRadius, Frame, Margin, RichText, ScrollArea, Stroke, Ui};
 use crate::ui::code::Code;
 use crate::ui::code::difference::{Side, compare};
 use crate::ui::code::document::{Document, Outside};
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Lines around a change that are shown with it.
@@ -48,14 +49,14 @@ pub fn offers(code: &Code, ui: &mut Ui) -> Option<Choice> {
     }
     let mut choice = None;
     frame(ui, false).show(ui, |ui| {
-        ui.label("These texts were not saved when the editor ended the last time:");
+        ui.label(say!("code.these_texts_were_not_saved_when"));
         for (index, draft) in code.offered.iter().enumerate() {
             ui.push_id(index, |ui| {
                 ui.horizontal_wrapped(|ui| {
-                    if ui.button("Open the text").clicked() {
+                    if ui.button(say!("code.open_the_text")).clicked() {
                         choice = Some(Choice::Restore(index));
                     }
-                    if ui.button("Throw it away").clicked() {
+                    if ui.button(say!("code.throw_it_away")).clicked() {
                         choice = Some(Choice::ThrowAway(index));
                     }
                     ui.label(RichText::new(&draft.path).monospace());
@@ -77,12 +78,15 @@ pub fn show(
     if document.is_shipped() {
         frame(ui, false).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                ui.label("This file is part of the program and can only be read.");
+                ui.label(say!("code.this_file_is_part_of_the"));
                 if has_project {
-                    if ui.button("Copy into the project to edit").clicked() {
+                    if ui
+                        .button(say!("code.copy_into_the_project_to_edit"))
+                        .clicked()
+                    {
                         choice = Some(Choice::Copy);
                     }
-                } else if ui.button("Open a project to edit it").clicked() {
+                } else if ui.button(say!("code.open_a_project_to_edit_it")).clicked() {
                     choice = Some(Choice::Project);
                 }
             });
@@ -94,7 +98,7 @@ pub fn show(
     }
     if let Some(failure) = &document.failure {
         frame(ui, true).show(ui, |ui| {
-            let text = format!("Not saved: {failure}.");
+            let text = say!("code.not_saved", failure = failure);
             ui.label(RichText::new(text).color(Palette::of(ui).error));
         });
     }
@@ -111,24 +115,24 @@ fn conflict(
     frame(ui, true).show(ui, |ui| {
         let (text, theirs) = match outside {
             Outside::Changed(_) => (
-                "The file was changed outside, and this text is not saved. Nothing was overwritten.",
-                "Take theirs",
+                say!("code.the_file_was_changed_outside_and"),
+                say!("code.take_theirs"),
             ),
             Outside::Deleted => (
-                "The file was deleted or moved. Its text is here alone; save it to write it again.",
-                "Close it",
+                say!("code.the_file_was_deleted_or_moved"),
+                say!("code.close_it"),
             ),
         };
         ui.label(text);
         ui.horizontal_wrapped(|ui| {
-            if ui.button("Keep mine").clicked() {
+            if ui.button(say!("code.keep_mine")).clicked() {
                 choice = Some(Choice::Mine);
             }
             if ui.button(theirs).clicked() {
                 choice = Some(Choice::Theirs);
             }
             if matches!(outside, Outside::Changed(_)) {
-                ui.toggle_value(comparing, "See both");
+                ui.toggle_value(comparing, say!("code.see_both"));
             }
         });
         if let (true, Outside::Changed(theirs)) = (*comparing, outside) {
@@ -158,8 +162,8 @@ fn both(mine: &str, theirs: &str, ui: &mut Ui) {
         }
     }
     ui.horizontal(|ui| {
-        ui.label(RichText::new("+ mine").color(palette.gpu));
-        ui.label(RichText::new("- theirs").color(palette.cpu));
+        ui.label(RichText::new(say!("code.mine")).color(palette.gpu));
+        ui.label(RichText::new(say!("code.theirs")).color(palette.cpu));
     });
     let height = ui.text_style_height(&egui::TextStyle::Monospace);
     let most = (ui.available_height() * 0.5).max(80.0);

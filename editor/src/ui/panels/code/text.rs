@@ -16,6 +16,7 @@ use crate::ui::code::document::Document;
 use crate::ui::code::search::{byte_of, byte_of_place, letters_before};
 use crate::ui::code::tokens::Language;
 use crate::ui::code::typing::{self, Edit};
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Something that is wrong with a line of the text as it is now.
@@ -105,6 +106,8 @@ impl TextField {
             .show(&mut inner, |ui| {
                 let behind = ui.painter().add(Shape::Noop);
                 let output = self.edit(ui, document, id, language, &whole);
+                ui.ctx()
+                    .accesskit_node_builder(id, |node| node.set_label(document.path.as_str()));
                 let shapes = backgrounds(ui, &output, shown, &self.chosen);
                 ui.painter().set(behind, shapes);
                 marks(ui, &output, document, shown.marks);
@@ -370,7 +373,7 @@ fn marks(ui: &Ui, output: &TextEditOutput, document: &Document, marks: &[Mark]) 
                     ui.label(RichText::new(hint).italics());
                 }
                 if document.is_unsaved() {
-                    ui.label(RichText::new("Said of the text that was saved last.").weak());
+                    ui.label(RichText::new(say!("code.said_of_the_text_that_was")).weak());
                 }
             });
         }

@@ -9,6 +9,7 @@ use egui::{Button, RichText, ScrollArea, Slider, Ui};
 use super::{parameters, widgets};
 use crate::ui::compare_actions::{self, CompareAction};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::comparing::{FASTEST, Mode};
 use crate::ui::workbench::fields::Field;
@@ -19,20 +20,23 @@ pub use over::{interact, over};
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let mut on = editor.workbench.comparing.is_on();
     ui.horizontal_wrapped(|ui| {
-        if ui.checkbox(&mut on, "Compare two pipelines").changed() {
+        if ui
+            .checkbox(&mut on, say!("compare.compare_two_pipelines"))
+            .changed()
+        {
             editor.workbench.compare(on);
         }
         let ctx = ui.ctx().clone();
         for (title, action, about) in [
             (
-                "Copy view",
+                say!("compare.copy_view"),
                 CompareAction::CopyView,
-                "What is on screen as a line of text: Ctrl+L",
+                say!("compare.what_is_on_screen_as_a"),
             ),
             (
-                "Paste view",
+                say!("compare.paste_view"),
                 CompareAction::PasteView,
-                "Goes to what such a line says: Ctrl+G",
+                say!("compare.goes_to_what_such_a_line"),
             ),
         ] {
             if ui.small_button(title).on_hover_text(about).clicked() {
@@ -41,8 +45,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         }
     });
     if !on {
-        let text = "A is the pipeline of the toolbar. B is drawn beside it, on the same scene, camera and time. \
-                    Key C begins and ends it.";
+        let text = say!("compare.a_is_the_pipeline_of_the");
         ui.label(RichText::new(text).weak());
         ui.separator();
         report::show(editor, ui);
@@ -74,7 +77,7 @@ fn sides(editor: &mut Editor, ui: &mut Ui) {
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
         ui.label(first);
-        widgets::combo(ui, "Pipeline B", &title, 170.0, |ui| {
+        widgets::combo(ui, say!("compare.pipeline_b"), &title, 170.0, |ui| {
             for entry in &workbench.library.pipelines {
                 let mut text = RichText::new(&entry.title);
                 if entry.problem.is_some() {
@@ -94,14 +97,14 @@ fn sides(editor: &mut Editor, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         for (title, action, about) in [
             (
-                "Swap A and B",
+                say!("compare.swap_a_and_b"),
                 CompareAction::Swap,
-                "The other panels show A. Shift+C",
+                say!("compare.the_other_panels_show_a_shift"),
             ),
             (
-                "Give B what A has",
+                say!("compare.give_b_what_a_has"),
                 CompareAction::Like,
-                "The same pipeline with the same values, to change one of them",
+                say!("compare.the_same_pipeline_with_the_same"),
             ),
         ] {
             if ui.button(title).on_hover_text(about).clicked() {
@@ -124,36 +127,40 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
     });
     ui.horizontal_wrapped(|ui| match comparing.mode {
         Mode::Split => {
-            let label = ui.label("Split at");
+            let label = ui.label(say!("compare.split_at"));
             let slider = Slider::new(&mut comparing.split, 0.0..=1.0).max_decimals(3);
-            ui.add(slider).labelled_by(label.id).on_hover_text(
-                "Drag the line in the picture, or Shift and the arrows left and right",
-            );
+            ui.add(slider)
+                .labelled_by(label.id)
+                .on_hover_text(say!("compare.drag_the_line_in_the_picture"));
         }
         Mode::Flicker => {
             let shown = if comparing.flicker.shows_b { "B" } else { "A" };
-            if ui.button("Show the other").on_hover_text("Key B").clicked() {
+            if ui
+                .button(say!("compare.show_the_other"))
+                .on_hover_text(say!("compare.key_b"))
+                .clicked()
+            {
                 comparing.flicker.change();
             }
-            ui.label(format!("{shown} is shown"));
-            ui.checkbox(&mut comparing.flicker.automatic, "By itself");
-            let label = ui.label("Changes a second");
+            ui.label(say!("compare.is_shown", shown = shown));
+            ui.checkbox(&mut comparing.flicker.automatic, say!("compare.by_itself"));
+            let label = ui.label(say!("compare.changes_a_second"));
             let slider = Slider::new(&mut comparing.flicker.rate, 0.25..=FASTEST).max_decimals(2);
-            ui.add(slider).labelled_by(label.id).on_hover_text(
-                "Not faster than this: quick flashes can bring on seizures (WCAG 2.2, 2.3.1).",
-            );
+            ui.add(slider)
+                .labelled_by(label.id)
+                .on_hover_text(say!("compare.not_faster_than_this_quick_flashes"));
         }
         Mode::Difference => {
-            let label = ui.label("Gain");
+            let label = ui.label(say!("compare.gain"));
             let slider = Slider::new(&mut comparing.gain, 1.0..=256.0)
                 .logarithmic(true)
                 .max_decimals(1);
             ui.add(slider).labelled_by(label.id);
-            ui.checkbox(&mut comparing.false_colors, "False colours")
-                .on_hover_text("The largest of the three channels in the colours of viridis");
+            ui.checkbox(&mut comparing.false_colors, say!("compare.false_colours"))
+                .on_hover_text(say!("compare.the_largest_of_the_three_channels"));
         }
         Mode::Flip => {
-            let label = ui.label("Opacity");
+            let label = ui.label(say!("compare.opacity"));
             let slider = Slider::new(&mut comparing.opacity, 0.0..=1.0).max_decimals(2);
             ui.add(slider).labelled_by(label.id);
         }
@@ -172,10 +179,10 @@ fn values(editor: &mut Editor, ui: &mut Ui) {
         Some(Field::of_pipeline(&desc.parameters, &slot.settings))
     });
     let Some(fields) = fields else {
-        ui.label(RichText::new("Pipeline B is not built yet.").weak());
+        ui.label(RichText::new(say!("compare.pipeline_b_is_not_built_yet")).weak());
         return;
     };
-    ui.label(RichText::new("Parameters of B").strong());
+    ui.label(RichText::new(say!("compare.parameters_of_b_heading")).strong());
     let changed = ui.push_id("parameters of B", |ui| parameters::edit(ui, &fields));
     if let Some((name, value)) = changed.inner {
         workbench.set_other_parameter(&name, value);

@@ -5,6 +5,7 @@ use lightbench::lab::diff::LdrDifference;
 
 use super::super::widgets::{MISSING, bytes, count, ms};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::workbench::Workbench;
 use crate::ui::workbench::comparing::{Cost, Costs};
 
@@ -36,15 +37,15 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         }
     }
     ui.horizontal_wrapped(|ui| {
-        let about = "Draws the same moment so many times more, in turn, for medians of more frames";
-        let title = format!("Draw {MORE} more");
+        let about = say!("compare.draws_the_same_moment_so_many");
+        let title = say!("compare.draw_more", more = MORE);
         if ui.small_button(title).on_hover_text(about).clicked() {
             editor.workbench.draw_more(MORE);
         }
         let text = if editor.workbench.gpu().summary.software {
-            "Drawn in turn by the processor: for times to rely on, write a report."
+            say!("compare.drawn_in_turn_by_the_processor")
         } else {
-            "Drawn in turn: for times to rely on, write a report."
+            say!("compare.drawn_in_turn_for_times_to")
         };
         ui.label(RichText::new(text).small().weak());
     });
@@ -53,30 +54,30 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 /// The numbers of a difference, as they are shown and kept: what, the value, and what it means.
 pub fn lines(difference: &LdrDifference) -> [(&'static str, String, &'static str); 5] {
     let psnr = match difference.srgb.psnr_db {
-        db if db.is_finite() => format!("{db:.2} dB"),
-        _ => "equal".to_owned(),
+        db if db.is_finite() => say!("compare.db", db = format_args!("{db:.2}")),
+        _ => say!("compare.equal").to_owned(),
     };
     [
         (
-            "FLIP, mean",
+            say!("compare.flip_mean"),
             format!("{:.5}", difference.flip.mean),
-            "0 where nobody sees a difference, 1 where it is largest. A is the reference.",
+            say!("compare.flip_mean_is"),
         ),
         (
-            "FLIP, largest",
+            say!("compare.flip_largest"),
             format!("{:.5}", difference.flip.max),
-            "Of the pixel that differs most.",
+            say!("compare.of_the_pixel_that_differs_most"),
         ),
         (
-            "MSE",
+            say!("compare.mse"),
             format!("{:.3e}", difference.srgb.mse),
-            "Mean of the squares, of display-ready values from 0 to 1.",
+            say!("compare.mean_of_the_squares_of_display"),
         ),
-        ("PSNR", psnr, "10 log10 (1 / MSE)."),
+        (say!("compare.psnr"), psnr, say!("compare.psnr_is")),
         (
-            "Largest difference",
+            say!("compare.largest_difference"),
             format!("{} / 255", difference.srgb.max_steps),
-            "Of any channel of any pixel, in steps of 8 bits.",
+            say!("compare.of_any_channel_of_any_pixel"),
         ),
     ]
 }
@@ -85,18 +86,18 @@ pub fn lines(difference: &LdrDifference) -> [(&'static str, String, &'static str
 fn pictures(workbench: &Workbench, ui: &mut Ui) {
     let Some(judgement) = workbench.judgement() else {
         let text = if workbench.judgement_is_coming() {
-            "The pictures are compared as soon as nothing moves."
+            say!("compare.the_pictures_are_compared_as_soon")
         } else {
-            "The pictures are not compared yet."
+            say!("compare.the_pictures_are_not_compared_yet")
         };
         ui.label(RichText::new(text).weak());
         return;
     };
     let (width, height) = judgement.judged.size;
     let of = match judgement.frames_ago {
-        0 => "of the picture on screen".to_owned(),
-        1 => "of the picture 1 frame ago".to_owned(),
-        ago => format!("of the picture {} frames ago", count(ago)),
+        0 => say!("compare.of_the_picture_on_screen").to_owned(),
+        1 => say!("compare.of_the_picture_1_frame_ago").to_owned(),
+        ago => say!("compare.of_the_picture_frames_ago", ago = count(ago)),
     };
     Grid::new("how far apart")
         .num_columns(2)
@@ -109,9 +110,14 @@ fn pictures(workbench: &Workbench, ui: &mut Ui) {
             }
         });
     ui.label(
-        RichText::new(format!("8 bits, sRGB, {width} x {height}, {of}"))
-            .small()
-            .weak(),
+        RichText::new(say!(
+            "compare.eight_bits",
+            width = width,
+            height = height,
+            of = of
+        ))
+        .small()
+        .weak(),
     );
 }
 
@@ -121,41 +127,45 @@ fn costs(workbench: &Workbench, sides: &[Option<Costs>; 2], ui: &mut Ui) {
         side.as_ref().map_or_else(|| MISSING.to_owned(), of)
     };
     let time = |cost: Cost| match cost.median_ms {
-        Some(_) => format!("{} ms ({})", ms(cost.median_ms), cost.frames),
+        Some(_) => say!(
+            "compare.ms",
+            median_ms = ms(cost.median_ms),
+            frames = cost.frames
+        ),
         None => MISSING.to_owned(),
     };
     let why_no_time = if workbench.gpu().has_timestamps() {
-        "From the first pass to the last: median, and of how many frames."
+        say!("compare.from_the_first_pass_to_the")
     } else {
-        "This adapter has no timestamps."
+        say!("compare.this_adapter_has_no_timestamps")
     };
     type Row<'a> = (&'a str, &'a dyn Fn(&Costs) -> String, &'a str);
     let rows: [Row<'_>; 6] = [
-        ("GPU time", &|c| time(c.gpu), why_no_time),
+        (say!("compare.gpu_time"), &|c| time(c.gpu), why_no_time),
         (
-            "CPU time",
+            say!("compare.cpu_time"),
             &|c| time(c.cpu),
-            "To extract and record a frame: median, and of how many frames.",
+            say!("compare.to_extract_and_record_a_frame"),
         ),
         (
-            "Draws, dispatches",
+            say!("compare.draws_dispatches"),
             &|c| count(c.calls),
-            "Of the last frame.",
+            say!("compare.of_the_last_frame"),
         ),
         (
-            "Bytes moved",
+            say!("compare.bytes_moved"),
             &|c| bytes(c.moved_bytes),
-            "Read and written in a frame: modelled from formats and sizes.",
+            say!("compare.read_and_written_in_a_frame"),
         ),
         (
-            "Memory",
+            say!("compare.memory"),
             &|c| bytes(c.target_bytes),
-            "All targets and buffers of the pipeline.",
+            say!("compare.all_targets_and_buffers_of_the"),
         ),
         (
-            "Lights in view",
+            say!("compare.lights_in_view"),
             &|c| count(u64::from(c.lights)),
-            "That reach into what the camera sees.",
+            say!("compare.that_reach_into_what_the_camera"),
         ),
     ];
     Grid::new("what it costs")

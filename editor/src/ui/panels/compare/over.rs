@@ -8,6 +8,7 @@ use lightbench::lab::colormap::ColorMap;
 
 use super::super::viewport;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::comparing::Mode;
 
@@ -27,7 +28,9 @@ pub fn interact(editor: &mut Editor, ui: &mut Ui, rect: Rect) {
     let strip = Rect::from_min_max(pos2(x - REACH, rect.top()), pos2(x + REACH, rect.bottom()));
     let id = Id::unique("split");
     let response = ui.interact(strip.intersect(rect), id, Sense::drag());
-    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(comparing.split), "Split"));
+    response.widget_info(|| {
+        egui::WidgetInfo::slider(true, f64::from(comparing.split), say!("compare.split"))
+    });
     if response.dragged()
         && let Some(at) = response.interact_pointer_pos()
     {
@@ -62,7 +65,7 @@ pub fn over(editor: &Editor, ui: &Ui, rect: Rect) {
     let first = format!("A: {}", title(workbench.pipelines.shown()));
     let second = match side.pipelines.shown() {
         Some(name) => format!("B: {}", title(Some(name))),
-        None => "B: is being built".to_owned(),
+        None => say!("compare.b_is_being_built").to_owned(),
     };
     match comparing.mode {
         Mode::Split => split(ui, rect, comparing.split, &first, &second),
@@ -75,7 +78,12 @@ pub fn over(editor: &Editor, ui: &Ui, rect: Rect) {
             viewport::note(ui, rect, Align2::CENTER_BOTTOM, &text);
         }
         Mode::Difference => {
-            let text = format!("{first}, {second}: difference x {:.0}", comparing.gain);
+            let text = say!(
+                "compare.difference_x",
+                first = first,
+                second = second,
+                gain = format_args!("{:.0}", comparing.gain)
+            );
             viewport::note(ui, rect, Align2::CENTER_BOTTOM, &text);
         }
         Mode::Flip => flip(editor, ui, rect, &format!("{first}, {second}")),
@@ -138,13 +146,22 @@ fn flip(editor: &Editor, ui: &Ui, rect: Rect, names: &str) {
     let judgement = judgement.filter(|judgement| Some(judgement.judged.size) == size);
     let is_shown = judgement.is_some();
     let text = match judgement {
-        None => format!("{names}: FLIP comes as soon as nothing moves"),
+        None => say!("compare.flip_comes_as_soon_as_nothing", names = names),
         Some(judgement) => {
             let mean = judgement.judged.difference.flip.mean;
             match judgement.frames_ago {
-                0 => format!("{names}: FLIP {mean:.4} in the mean"),
+                0 => say!(
+                    "compare.flip_in_the_mean",
+                    names = names,
+                    mean = format_args!("{mean:.4}")
+                ),
                 ago => {
-                    format!("{names}: FLIP {mean:.4} in the mean, of the picture {ago} frames ago")
+                    say!(
+                        "compare.flip_in_the_mean_of_the",
+                        names = names,
+                        mean = format_args!("{mean:.4}"),
+                        ago = ago
+                    )
                 }
             }
         }

@@ -3,6 +3,7 @@
 use egui::{DragValue, OpenUrl, ProgressBar, RichText, Ui};
 
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Draws the button, or how far the report is.
@@ -11,50 +12,53 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     if let Some((share, label)) = workbench.reporting.progress() {
         ui.add(ProgressBar::new(share).text(label));
         ui.horizontal_wrapped(|ui| {
-            if ui.button("Stop the report").clicked() {
+            if ui.button(say!("compare.stop_the_report")).clicked() {
                 workbench.reporting.cancel();
             }
-            let text = "Whatever the computer does meanwhile is measured too.";
+            let text = say!("compare.whatever_the_computer_does_meanwhile_is");
             ui.label(RichText::new(text).small().weak());
         });
         return;
     }
     ui.horizontal_wrapped(|ui| {
-        let about = "Measures what is on the screen in fresh processes, as `lightbench compare` does, and \
-                     writes the report into the project";
+        let about = say!("compare.measures_what_is_on_the_screen");
         if ui
-            .button("Report of what is on screen")
+            .button(say!("compare.report_of_what_is_on_screen"))
             .on_hover_text(about)
             .clicked()
         {
             begin(editor);
         }
         let effort = &mut editor.workbench.reporting.effort;
-        let label = ui.label("Processes");
+        let label = ui.label(say!("compare.processes"));
         ui.add(DragValue::new(&mut effort.processes).range(1..=100))
             .labelled_by(label.id)
-            .on_hover_text("Five are the least for a ranking.");
-        let label = ui.label("Seconds");
-        ui.add(DragValue::new(&mut effort.seconds).range(0.1..=3600.0).speed(0.1))
-            .labelled_by(label.id)
-            .on_hover_text("For each pipeline, over all processes.");
+            .on_hover_text(say!("compare.five_are_the_least_for_a"));
+        let label = ui.label(say!("compare.seconds"));
+        ui.add(
+            DragValue::new(&mut effort.seconds)
+                .range(0.1..=3600.0)
+                .speed(0.1),
+        )
+        .labelled_by(label.id)
+        .on_hover_text(say!("compare.for_each_pipeline_over_all_processes"));
     });
     match editor.workbench.reporting.last() {
         None => {}
         Some(Ok(report)) => {
             let page = report.page.display().to_string();
             ui.horizontal_wrapped(|ui| {
-                if ui.button("Open the report").clicked() {
+                if ui.button(say!("compare.open_the_report")).clicked() {
                     ui.ctx().open_url(OpenUrl::new_tab(address(&page)));
                 }
-                if ui.button("Copy its path").clicked() {
+                if ui.button(say!("compare.copy_its_path")).clicked() {
                     ui.ctx().copy_text(page.clone());
                 }
                 ui.label(RichText::new(page).monospace().small());
             });
         }
         Some(Err(error)) => {
-            let text = format!("No report: {error}");
+            let text = say!("compare.no_report", error = error);
             ui.label(RichText::new(text).color(Palette::of(ui).error));
         }
     }

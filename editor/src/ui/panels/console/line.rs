@@ -5,6 +5,8 @@ use egui::{Event, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 use lightbench::script::Scene;
 use lightbench::script::reference::{Completions, complete};
 
+use crate::ui::messages::say;
+
 /// Height of the list of candidates, points.
 const LIST: f32 = 96.0;
 
@@ -102,7 +104,7 @@ impl Line {
         let before = self.text.clone();
         let edit = ui
             .horizontal(|ui| {
-                let label = ui.label("Line");
+                let label = ui.label(say!("console.line"));
                 let edit = TextEdit::singleline(&mut self.text)
                     .id(id)
                     .code_editor()

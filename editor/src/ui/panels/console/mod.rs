@@ -8,6 +8,7 @@ use egui::{RichText, ScrollArea, Ui};
 use lightbench::script::reference::{Help, help_at};
 
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::hand::Evaluated;
 use line::Line;
@@ -50,7 +51,7 @@ impl ConsolePanel {
                 // The line itself stands above.
                 let place = match problem.place.column {
                     0 => String::new(),
-                    column => format!("column {column}: "),
+                    column => say!("console.column", column = column),
                 };
                 let hint = problem.hint.map_or_else(String::new, |h| format!(" ({h})"));
                 self.say(Kind::Error, format!("{place}{}{hint}", problem.message));
@@ -85,7 +86,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
     match editor.workbench.evaluate(&text) {
         Some(evaluated) => editor.console.tell(evaluated),
-        None => editor.console.say(Kind::Error, "no scene is loaded yet"),
+        None => editor
+            .console
+            .say(Kind::Error, say!("console.no_scene_is_loaded_yet")),
     }
 }
 
@@ -101,8 +104,7 @@ fn output(panel: &ConsolePanel, ui: &mut Ui, height: f32) {
         ui.spacing_mut().item_spacing.y = 2.0;
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         if panel.output.is_empty() {
-            let text = "A line of scene script, as in  entity(\"lamp\").intensity(40);\n\
-                        Enter runs it, Tab completes names, Up and Down go through earlier lines.";
+            let text = say!("console.a_line_of_scene_script_as");
             ui.label(RichText::new(text).weak());
         }
         for (kind, text) in &panel.output {

@@ -7,6 +7,7 @@ use lightbench::world::glam::{DVec3, Vec2, Vec3, Vec4};
 use lightbench::world::reflect::FieldInfo;
 use lightbench::world::{ComponentKind, Value, ValueType};
 
+use crate::ui::messages::say;
 use crate::ui::panels::widgets::words;
 use crate::ui::theme::Palette;
 
@@ -55,7 +56,12 @@ pub fn text_of(value: &Value) -> String {
         numbers.join(", ")
     };
     match value {
-        Value::Bool(on) => if *on { "yes" } else { "no" }.to_owned(),
+        Value::Bool(on) => if *on {
+            say!("entities.yes")
+        } else {
+            say!("entities.no")
+        }
+        .to_owned(),
         Value::Int(whole) => whole.to_string(),
         Value::Float(number) => number.to_string(),
         Value::Vec2(pair) => all(&pair.to_array()),
@@ -69,10 +75,10 @@ pub fn text_of(value: &Value) -> String {
         Value::Mat3(matrix) => all(&matrix.transpose().to_cols_array()),
         Value::Mat4(matrix) => all(&matrix.transpose().to_cols_array()),
         Value::Entity(entity) => entity.to_string(),
-        Value::Mesh(id) => format!("mesh {}", id.0),
-        Value::Material(id) => format!("material {}", id.0),
-        Value::List(items) => format!("{} items", items.len()),
-        Value::Map(entries) if entries.is_empty() => "none".to_owned(),
+        Value::Mesh(id) => say!("entities.mesh", id = id.0),
+        Value::Material(id) => say!("entities.material", id = id.0),
+        Value::List(items) => say!("entities.items", items = items.len()),
+        Value::Map(entries) if entries.is_empty() => say!("entities.none").to_owned(),
         Value::Map(entries) => {
             let names: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
             names.join(", ")
@@ -98,21 +104,28 @@ impl Row<'_> {
             // Behind the widget, which would be another one for egui if something before it came or went
             // while it is dragged.
             if self.differs {
-                let about = "What is chosen has different values here. This is the one of the last; a \
-                             change goes to all.";
+                let about = say!("entities.what_is_chosen_has_different_values");
                 ui.label(RichText::new("differs").small().italics())
                     .on_hover_text(about);
             }
             if let Some(overlay) = self.overlay {
                 let about = match &overlay.script {
-                    Some(script) => format!("Back to the script's {}", text_of(script)),
-                    None => "Forget the change".to_owned(),
+                    Some(script) => say!("entities.back_to_the_script", script = text_of(script)),
+                    None => say!("entities.forget_the_change").to_owned(),
                 };
-                if ui.small_button("Reset").on_hover_text(about).clicked() {
+                if ui
+                    .small_button(say!("entities.reset"))
+                    .on_hover_text(about)
+                    .clicked()
+                {
                     done = Some(Done::Reset);
                 }
-                let about = "The line of a scene script that does this";
-                if ui.small_button("Copy").on_hover_text(about).clicked() {
+                let about = say!("entities.the_line_of_a_scene_script");
+                if ui
+                    .small_button(say!("entities.copy"))
+                    .on_hover_text(about)
+                    .clicked()
+                {
                     done = Some(Done::Copy);
                 }
             }
@@ -133,9 +146,9 @@ impl Row<'_> {
         };
         ui.painter().circle_filled(rect.center(), 3.5, color);
         let script = overlay.script.as_ref().map_or_else(String::new, text_of);
-        let mut about = format!("Changed by hand. The script's value: {script}");
+        let mut about = say!("entities.changed_by_hand_the_script_value", script = script);
         if overlay.contested {
-            about += "\nThe script, a behaviour or a motion writes it too; what you set wins.";
+            about += say!("entities.the_script_a_behaviour_or_a");
         }
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &about));
         response.on_hover_text(about);
@@ -145,13 +158,28 @@ impl Row<'_> {
         let mut about = one_line(self.info.doc);
         let (least, greatest) = self.info.range;
         match (least.is_finite(), greatest.is_finite()) {
-            (true, true) => about += &format!("\nFrom {least} to {greatest} {}", self.info.unit),
-            (true, false) => about += &format!("\nAt least {least} {}", self.info.unit),
-            (false, true) => about += &format!("\nAt most {greatest} {}", self.info.unit),
+            (true, true) => {
+                about += &say!(
+                    "entities.from_to",
+                    least = least,
+                    greatest = greatest,
+                    unit = self.info.unit
+                )
+            }
+            (true, false) => {
+                about += &say!("entities.at_least", least = least, unit = self.info.unit)
+            }
+            (false, true) => {
+                about += &say!(
+                    "entities.at_most",
+                    greatest = greatest,
+                    unit = self.info.unit
+                )
+            }
             (false, false) if self.info.unit.is_empty() => {}
-            (false, false) => about += &format!("\nIn {}", self.info.unit),
+            (false, false) => about += &say!("entities.in_unit", unit = self.info.unit),
         }
-        about += &format!("\nName in scripts: {}", self.path);
+        about += &say!("entities.name_in_scripts", path = self.path);
         let width = (ui.available_width() * 0.28).clamp(70.0, 120.0);
         let size = vec2(width, ui.spacing().interact_size.y);
         let label = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {

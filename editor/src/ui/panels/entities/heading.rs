@@ -7,6 +7,7 @@ use lightbench::world::{ComponentKind, Entity};
 
 use super::{Wish, field, list, name_of};
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Draws the name and what concerns all fields of what is chosen.
@@ -27,7 +28,7 @@ pub fn show(
     };
     let name = name_of(scene, last);
     ui.horizontal(|ui| {
-        let label = ui.label("Name");
+        let label = ui.label(say!("entities.name"));
         let id = ui.scope_id().with(("name", last));
         let kept: Option<String> = ui.data(|data| data.get_temp(id));
         let mut typed = kept.unwrap_or_else(|| name.clone());
@@ -51,7 +52,7 @@ pub fn show(
         }
     });
     ui.horizontal_wrapped(|ui| {
-        ui.menu_button("Add component", |ui| {
+        ui.menu_button(say!("entities.add_component"), |ui| {
             for kind in addable() {
                 let lacks = |entity: &Entity| !scene.world.has_component(*entity, kind);
                 if chosen.iter().any(lacks) && ui.button(kind.info().name).clicked() {
@@ -66,7 +67,7 @@ pub fn show(
             let mut all = overlays.iter();
             all.any(|(entity, ..)| names.contains(entity))
         });
-        if changed && ui.small_button("Reset entity").clicked() {
+        if changed && ui.small_button(say!("entities.reset_entity")).clicked() {
             *wish = Some(Wish::Reset(names.into_iter().collect(), None));
         }
     });

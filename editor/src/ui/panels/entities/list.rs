@@ -9,6 +9,7 @@ use lightbench::world::components::Family;
 use lightbench::world::{Entity, Name, RowOrder, Tick, Transform, World};
 
 use super::switches::{eye, padlock};
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::selection::Selection;
 use crate::ui::workbench::structure::is_shown;
@@ -75,7 +76,7 @@ struct Made {
 /// An entity's name in a list, or a number where it has none.
 pub fn title(name: &str, entity: Entity) -> String {
     if name.is_empty() {
-        format!("(no name, {})", entity.index())
+        say!("entities.no_name", index = entity.index())
     } else {
         name.to_owned()
     }
@@ -170,11 +171,11 @@ impl Rows {
     ) -> Option<Deed> {
         let mut deed = None;
         ui.horizontal(|ui| {
-            let label = ui.label("Filter");
+            let label = ui.label(say!("entities.filter"));
             let field = TextEdit::singleline(&mut self.filter).desired_width(140.0);
             ui.add(field).labelled_by(label.id);
             if DragAndDrop::has_payload_of_type::<Carried>(ui.ctx()) {
-                let response = ui.add(Button::new("No parent"));
+                let response = ui.add(Button::new(say!("entities.no_parent")));
                 mark_target(ui, &response);
                 if let Some(carried) = response.dnd_release_payload::<Carried>() {
                     deed = Some(Deed::Put(carried.0.clone(), None));
@@ -182,7 +183,7 @@ impl Rows {
                 return;
             }
             let (shown, all) = (self.rows.len(), scene.world.len());
-            ui.label(RichText::new(format!("{shown} of {all} entities")).weak());
+            ui.label(RichText::new(say!("entities.of_entities", shown = shown, all = all)).weak());
         });
         let row = ui.spacing().interact_size.y;
         let area = ScrollArea::vertical()
@@ -207,7 +208,7 @@ fn show_row(ui: &mut Ui, scene: &Scene, selection: &Selection, row: Row) -> Opti
     let names = world.columns::<Name>();
     let name = names.row_of(entity).map_or("", |row| &names.text()[row]);
     let called = match name {
-        "" => "what has no name",
+        "" => say!("entities.what_has_no_name"),
         name => name,
     };
     let mut deed = None;

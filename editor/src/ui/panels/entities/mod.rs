@@ -14,6 +14,7 @@ use lightbench::world::{ComponentKind, Entity, Name, Value};
 use crate::ui::actions::Action;
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::structure::{is_locked, is_shown};
 pub use field::sentence;
@@ -54,7 +55,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let workbench = &mut editor.workbench;
     let panel = &mut editor.entities;
     let Some(scene) = workbench.scenes.scene() else {
-        ui.label(RichText::new("The scene is not loaded yet.").weak());
+        ui.label(RichText::new(say!("entities.the_scene_is_not_loaded_yet")).weak());
         return;
     };
     let swaps = workbench.scenes.swaps();
@@ -68,12 +69,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     ui.separator();
     let chosen: Vec<Entity> = editor.workbench.selection.entities().collect();
     if chosen.len() > 1 {
-        let mut text = format!(
-            "{} entities are chosen; these are the fields that all have, with the values of the last.",
-            chosen.len()
+        let mut text = say!(
+            "entities.entities_are_chosen_these_are_the",
+            chosen = chosen.len()
         );
         if chosen.len() > several::COMPARED {
-            text += " It is not looked whether the values differ.";
+            text += say!("entities.it_is_not_looked_whether_the");
         }
         ui.label(RichText::new(text).weak());
     }
@@ -85,7 +86,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let scroll = ScrollArea::vertical().id_salt("fields").auto_shrink(false);
     scroll.show(ui, |ui| {
         if chosen.is_empty() {
-            let text = "Choose an entity to see its components and to change them by hand.";
+            let text = say!("entities.choose_an_entity_to_see_its");
             ui.label(RichText::new(text).weak());
         } else {
             components(editor, ui, &chosen, refused, &mut wish);
@@ -200,8 +201,8 @@ fn grant(editor: &mut Editor, ui: &Ui, wish: Wish) {
             });
             let fields: Vec<(Entity, &str, Value)> = fields.collect();
             let what = match chosen.as_slice() {
-                [one] => format!("{path} of {}", name_of(scene, *one)),
-                all => format!("{path} of {} entities", all.len()),
+                [one] => say!("entities.field_of", path = path, one = name_of(scene, *one)),
+                all => say!("entities.field_of_entities", path = path, all = all.len()),
             };
             let result = workbench.set_fields(&what, &fields);
             // While a slider is dragged the same would stand in the log many times.
@@ -235,30 +236,28 @@ fn over_all(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
     ui.horizontal_wrapped(|ui| {
         if count == 0 && edits == 0 {
             // In the same place, so that nothing moves under who drags the first field.
-            ui.label(RichText::new("No field is changed by hand").weak());
+            ui.label(RichText::new(say!("entities.no_field_is_changed_by_hand")).weak());
             return;
         }
-        let fields = if count == 1 { "field" } else { "fields" };
-        let mut text = format!("{count} {fields} changed by hand");
-        if edits > 0 {
-            let times = if edits == 1 { "once" } else { "times" };
-            let number = if edits == 1 {
-                String::new()
-            } else {
-                format!("{edits} ")
-            };
-            text += &format!(", the structure {number}{times}");
+        let mut text = match count {
+            1 => say!("entities.one_field_changed_by_hand").to_owned(),
+            _ => say!("entities.fields_changed_by_hand", count = count),
+        };
+        match edits {
+            0 => {}
+            1 => text += say!("entities.the_structure_once"),
+            _ => text += &say!("entities.the_structure_times", edits = edits),
         }
         ui.label(text);
-        let about = "Lines for the end of the scene's script that do the same";
+        let about = say!("entities.lines_for_the_end_of_the");
         if ui
-            .small_button("Copy all as script")
+            .small_button(say!("entities.copy_all_as_script"))
             .on_hover_text(about)
             .clicked()
         {
             *wish = Some(Wish::Copy(editor.workbench.overlay_lines()));
         }
-        if ui.small_button("Reset all").clicked() {
+        if ui.small_button(say!("entities.reset_all")).clicked() {
             *wish = Some(Wish::ResetAll);
         }
     });
@@ -294,8 +293,8 @@ fn components(
             ui.label(RichText::new(info.name).color(Palette::of(ui).accent))
                 .on_hover_text(field::one_line(info.doc));
             if !info.hidden() && kind != ComponentKind::Name {
-                let button = ui.small_button("Remove");
-                let label = format!("Remove {}", info.name);
+                let button = ui.small_button(say!("entities.remove"));
+                let label = say!("entities.remove_component", name = info.name);
                 button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
                 if button.clicked() {
                     *wish = Some(Wish::Drop(kind));
@@ -353,10 +352,8 @@ fn waiting(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
         return;
     }
     ui.add_space(8.0);
-    ui.label(RichText::new("Waiting").strong()).on_hover_text(
-        "Changed by hand, but the entity or its component is not there. The change is laid on when it \
-         comes back.",
-    );
+    ui.label(RichText::new(say!("entities.waiting")).strong())
+        .on_hover_text(say!("entities.changed_by_hand_but_the_entity"));
     for (edit, _) in edits {
         ui.label(edit.words());
     }
@@ -365,7 +362,7 @@ fn waiting(editor: &Editor, ui: &mut Ui, wish: &mut Option<Wish>) {
             ui.horizontal(|ui| {
                 ui.label(format!("{entity}: {path}"));
                 ui.label(RichText::new(field::text_of(&overlay.value)).monospace());
-                if ui.small_button("Forget").clicked() {
+                if ui.small_button(say!("entities.forget")).clicked() {
                     let names = vec![entity.to_owned()];
                     *wish = Some(Wish::Reset(names, Some(path.to_owned())));
                 }

@@ -2,6 +2,8 @@
 
 use egui::{Color32, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
+use crate::ui::messages::say;
+
 /// An eye, open or struck through; none where nothing could be shown.
 pub fn eye(ui: &mut Ui, shown: Option<bool>, name: &str) -> bool {
     let (response, color) = place(ui);
@@ -31,7 +33,14 @@ pub fn eye(ui: &mut Ui, shown: Option<bool>, name: &str) -> bool {
     } else {
         painter.line_segment([corner(-5.0, 5.0), corner(5.0, -5.0)], stroke);
     }
-    let label = format!("{} {name}", if shown { "Hide" } else { "Show" });
+    let label = format!(
+        "{} {name}",
+        if shown {
+            say!("entities.hide")
+        } else {
+            say!("entities.show")
+        }
+    );
     clicked(response, label)
 }
 
@@ -62,7 +71,14 @@ pub fn padlock(ui: &mut Ui, locked: bool, name: &str) -> bool {
         pos2(center.x + 2.5, right),
     ];
     painter.line(bow.to_vec(), stroke);
-    let label = format!("{} {name}", if locked { "Unlock" } else { "Lock" });
+    let label = format!(
+        "{} {name}",
+        if locked {
+            say!("entities.unlock")
+        } else {
+            say!("entities.lock")
+        }
+    );
     clicked(response, label)
 }
 

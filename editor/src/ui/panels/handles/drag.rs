@@ -9,6 +9,7 @@ use super::keys::{self, Pressed};
 use super::{Frame, LENGTH, Part, Tool};
 use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
+use crate::ui::messages::say;
 use crate::ui::workbench::structure::is_locked;
 use crate::ui::workbench::viewports::Viewport;
 
@@ -60,7 +61,7 @@ impl Drag {
     ) -> Result<Self, String> {
         let workbench = &editor.workbench;
         let scene = workbench.scenes.scene();
-        let scene = scene.ok_or_else(|| "no scene is loaded".to_owned())?;
+        let scene = scene.ok_or_else(|| say!("handles.no_scene_is_loaded").to_owned())?;
         let mut starts = Vec::new();
         let mut locked = false;
         for entity in workbench.selection.entities() {
@@ -85,7 +86,7 @@ impl Drag {
             });
         }
         if locked && starts.is_empty() {
-            return Err("what is chosen is locked: unlock it in the list of entities".to_owned());
+            return Err(say!("handles.what_is_chosen_is_locked_unlock").to_owned());
         }
         let amount = match editor.viewport.handles.tool {
             Tool::Scale => Amount::Along(1.0),
@@ -114,7 +115,11 @@ impl Drag {
             Part::Axis(index) => ["x ", "y ", "z "][index],
             Part::Middle => "",
         };
-        let typed = if self.typed.is_empty() { "" } else { " typed" };
+        let typed = if self.typed.is_empty() {
+            ""
+        } else {
+            say!("handles.typed")
+        };
         match tool {
             Tool::Move => format!("{axis}{number:.3} m{typed}"),
             Tool::Turn => format!("{axis}{:.2}°{typed}", number.to_degrees()),
@@ -277,7 +282,7 @@ pub fn go_on(editor: &mut Editor, ui: &Ui, response: &Response, lens: &Lens) {
         .collect();
     let what = match drag.starts.len() {
         1 => tool.title().to_owned(),
-        count => format!("{} {count} entities", tool.title()),
+        count => say!("handles.entities", title = tool.title(), count = count),
     };
     if let Err(why) = editor.workbench.set_fields(&what, &changes) {
         editor.viewport.handles.refused = Some(why);

@@ -11,6 +11,7 @@ use lightbench::world::glam::{Mat3, Quat, Vec3};
 use super::marks::Mark;
 use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
+use crate::ui::messages::say;
 use crate::ui::workbench::viewports::Viewport;
 
 pub use drag::Drag;
@@ -34,9 +35,9 @@ impl Tool {
     /// The words for people.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Move => "Move",
-            Self::Turn => "Rotate",
-            Self::Scale => "Scale",
+            Self::Move => say!("handles.move"),
+            Self::Turn => say!("handles.rotate"),
+            Self::Scale => say!("handles.scale"),
         }
     }
 }

@@ -8,6 +8,7 @@ use egui::{
 use super::PassGraph;
 use super::layout::Way;
 use crate::ui::editor::Editor;
+use crate::ui::messages::say;
 use crate::ui::panels::passes::Row;
 use crate::ui::panels::widgets::{bytes, draw_sparkline, ms, short_count};
 use crate::ui::theme::Palette;
@@ -57,8 +58,12 @@ pub fn graph(editor: &Editor, ui: &mut Ui, rect: Rect, look: &Look) -> Option<Pi
             continue;
         };
         let response = node(ui, graph.area(rect, *area), ("pass", index), || {
-            let left_out = if row.cost.dropped { ", left out" } else { "" };
-            format!("Pass {}{left_out}", row.name)
+            let left_out = if row.cost.dropped {
+                say!("pass_graph.left_out")
+            } else {
+                ""
+            };
+            say!("pass_graph.pass", name = row.name, left_out = left_out)
         });
         take(&response, Picked::Pass(index));
         if graph.zoom < 0.6 {
@@ -67,9 +72,9 @@ pub fn graph(editor: &Editor, ui: &mut Ui, rect: Rect, look: &Look) -> Option<Pi
     }
     for (node_of, lane) in graph.nodes.iter().zip(&graph.layout.lanes) {
         let kind = if node_of.is_target {
-            "Target"
+            say!("pass_graph.target")
         } else {
-            "Buffer"
+            say!("pass_graph.buffer")
         };
         let area = graph.area(rect, lane.label);
         let response = node(ui, area, ("lane", node_of.name.as_str()), || {
@@ -242,11 +247,15 @@ fn pass(
     left(6.0, &name, 13.0, strong);
     left(23.0, row.kind, 10.5, weak);
     if left_out {
-        left(42.0, "left out: nobody uses", 11.0, weak);
-        left(56.0, "what it writes", 11.0, weak);
+        left(42.0, say!("pass_graph.left_out_nobody_uses"), 11.0, weak);
+        left(56.0, say!("pass_graph.what_it_writes"), 11.0, weak);
         return;
     }
-    let times = format!("GPU {} ms  CPU {} ms", ms(row.gpu_ms), ms(row.cpu_ms));
+    let times = say!(
+        "pass_graph.times",
+        gpu_ms = ms(row.gpu_ms),
+        cpu_ms = ms(row.cpu_ms)
+    );
     left(38.0, &times, 11.0, visuals.text_color());
     left(53.0, &work_in_words(row), 11.0, visuals.text_color());
     if let Some(times) = editor.workbench.timings.passes.get(index) {
@@ -261,27 +270,34 @@ fn work_in_words(row: &Row) -> String {
     let cost = &row.cost;
     let calls = match (cost.draws, cost.dispatches) {
         (0, 0) => String::new(),
-        (draws, 0) => format!("{} draws  ", short_count(draws.into())),
-        (0, dispatches) => format!("{} dispatches  ", short_count(dispatches.into())),
-        (draws, dispatches) => format!("{} calls  ", short_count((draws + dispatches).into())),
+        (draws, 0) => say!("pass_graph.draws", count = short_count(draws.into())),
+        (0, dispatches) => say!(
+            "pass_graph.dispatches",
+            count = short_count(dispatches.into())
+        ),
+        (draws, dispatches) => say!(
+            "pass_graph.calls",
+            count = short_count((draws + dispatches).into())
+        ),
     };
     format!("{calls}{}", bytes(cost.traffic.read + cost.traffic.written))
 }
 
 fn pass_in_words(row: &Row) -> String {
     if row.cost.dropped {
-        return format!(
-            "{}, {}: left out, nobody uses what it writes",
-            row.name, row.kind
+        return say!(
+            "pass_graph.left_out_nobody_uses_what_it",
+            name = row.name,
+            kind = row.kind
         );
     }
-    format!(
-        "{}, {}\nGPU {} ms, CPU {} ms\n{}",
-        row.name,
-        row.kind,
-        ms(row.gpu_ms),
-        ms(row.cpu_ms),
-        work_in_words(row)
+    say!(
+        "pass_graph.pass_costs",
+        name = row.name,
+        kind = row.kind,
+        gpu_ms = ms(row.gpu_ms),
+        cpu_ms = ms(row.cpu_ms),
+        row = work_in_words(row)
     )
 }
 

@@ -13,6 +13,7 @@ use self::layout::{Area, Layout, Sizes, lay_out};
 use self::model::{Node, nodes};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
+use crate::ui::messages::say;
 use crate::ui::theme::Palette;
 
 /// Sizes at a zoom of 1.
@@ -108,7 +109,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let fit = controls(editor, ui);
     let size = ui.available_size().max(vec2(1.0, 1.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Graph"));
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Image, true, say!("pass_graph.graph"))
+    });
     let graph = &mut editor.passes.graph;
     if graph.is_new || graph.zoom <= 0.0 {
         graph.begin_in(rect);
@@ -148,17 +151,24 @@ fn controls(editor: &mut Editor, ui: &mut Ui) -> bool {
     let center = ui.available_size() * 0.5;
     let graph = &mut editor.passes.graph;
     ui.horizontal(|ui| {
-        let fit = ui.button("Fit").on_hover_text("Or double-click").clicked();
+        let fit = ui
+            .button(say!("pass_graph.fit"))
+            .on_hover_text(say!("pass_graph.or_double_click"))
+            .clicked();
         for (sign, factor) in [("+", 1.25), ("-", 0.8)] {
-            if ui.button(sign).on_hover_text("Or the wheel").clicked() {
+            if ui
+                .button(sign)
+                .on_hover_text(say!("pass_graph.or_the_wheel"))
+                .clicked()
+            {
                 graph.zoom_about(center, factor);
             }
         }
-        ui.colored_label(palette.cpu, "writes");
-        ui.colored_label(palette.accent, "reads");
+        ui.colored_label(palette.cpu, say!("pass_graph.writes"));
+        ui.colored_label(palette.accent, say!("pass_graph.reads"));
         let crossings = graph.layout.crossings;
         if crossings > 0 {
-            ui.weak(format!("{crossings} crossings"));
+            ui.weak(say!("pass_graph.crossings", crossings = crossings));
         }
         fit
     })

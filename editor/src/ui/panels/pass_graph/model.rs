@@ -5,6 +5,7 @@ use lightbench::render::description::PassDesc;
 use lightbench::render::life::{reads, writes};
 
 use super::layout::{Resource, Way};
+use crate::ui::messages::say;
 
 /// A target or a buffer of a pipeline.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,10 +26,13 @@ pub fn nodes(desc: &PipelineDesc) -> Vec<Node> {
         let format = target.format.name();
         (target.name.as_str(), format.to_owned(), true)
     });
-    let buffers = desc
-        .buffers
-        .iter()
-        .map(|buffer| (buffer.name.as_str(), "buffer".to_owned(), false));
+    let buffers = desc.buffers.iter().map(|buffer| {
+        (
+            buffer.name.as_str(),
+            say!("pass_graph.buffer_kind").to_owned(),
+            false,
+        )
+    });
     targets
         .chain(buffers)
         .filter_map(|(name, about, is_target)| {

@@ -13,6 +13,7 @@ use lightbench::render::Gpu;
 use lightbench::render::description::Slice;
 use lightbench::render::readback::Reading;
 
+use crate::ui::messages::say;
 use crate::ui::workbench::Workbench;
 
 /// How long nothing must move before a pair is judged.
@@ -156,7 +157,7 @@ fn start(
         wake();
         judged.map_err(|error| error.to_string())
     })
-    .map_err(|error| format!("no thread to compare the pictures: {error}"))
+    .map_err(|error| say!("comparing.no_thread_to_compare_the_pictures", error = error))
 }
 
 fn upload(gpu: &Gpu, picture: &LdrImage) -> wgpu::Texture {
@@ -234,8 +235,10 @@ impl Workbench {
             return;
         }
         if let Some(error) = self.comparing.judge.poll(&self.wake) {
-            self.log
-                .error(format!("The pictures were not compared: {error}"));
+            self.log.error(say!(
+                "comparing.the_pictures_were_not_compared",
+                error = error
+            ));
         }
         if self.wants_judgement(now) != Some(Duration::ZERO) {
             return;

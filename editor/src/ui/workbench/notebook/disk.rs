@@ -9,6 +9,7 @@ use lightbench::lab::{LdrImage, Picture};
 
 use super::Kept;
 use super::entry::Entry;
+use crate::ui::messages::say;
 
 /// The longest side of a small picture.
 const SMALL: u32 = 160;
@@ -41,9 +42,10 @@ pub(super) fn read(folder: &Path) -> (Vec<Kept>, Vec<String>) {
                     unsaved: None,
                 });
             }
-            Err(error) => problems.push(format!(
-                "{} is left out of the notebook: {error}.",
-                path.display()
+            Err(error) => problems.push(say!(
+                "notebook.is_left_out_of_the_notebook",
+                path = path.display(),
+                error = error
             )),
         }
     }
@@ -62,10 +64,39 @@ pub(super) fn write(folder: &Path, entry: &Entry, png: Option<&[u8]>) -> Result<
 /// Writes a file, whole or not at all, with the folder that it needs.
 pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), String> {
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder)
-            .map_err(|error| format!("can't make the folder {}: {error}", folder.display()))?;
+        fs::create_dir_all(folder).map_err(|error| {
+            say!(
+                "notebook.cant_make_the_folder",
+                folder = folder.display(),
+                error = error
+            )
+        })?;
     }
     write_atomic(path, bytes).map_err(|error| error.to_string())
+}
+
+/// The files of an entry, byte for byte.
+#[derive(Clone, Debug)]
+pub(super) struct Files {
+    json: Vec<u8>,
+    /// Its picture, where there is one.
+    pub(super) png: Option<Vec<u8>>,
+}
+
+/// The files of an entry, where it is on the disk.
+pub(super) fn files(folder: &Path, name: &str) -> Option<Files> {
+    Some(Files {
+        json: fs::read(folder.join(format!("{name}.json"))).ok()?,
+        png: fs::read(folder.join(format!("{name}.png"))).ok(),
+    })
+}
+
+/// Writes the files of an entry that was deleted: its picture first.
+pub(super) fn bring_back(folder: &Path, name: &str, files: &Files) -> Result<(), String> {
+    if let Some(png) = &files.png {
+        write_file(&folder.join(format!("{name}.png")), png)?;
+    }
+    write_file(&folder.join(format!("{name}.json")), &files.json)
 }
 
 /// Deletes an entry: the file that makes it one first.

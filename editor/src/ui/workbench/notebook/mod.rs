@@ -2,6 +2,7 @@
 //!
 //! An entry that can't be written stays in memory until it can.
 
+mod changing;
 mod disk;
 mod entry;
 mod markdown;
@@ -16,7 +17,9 @@ use lightbench::render::description::Slice;
 use lightbench::render::readback::Reading;
 
 use super::Workbench;
+use crate::ui::messages::say;
 
+pub use self::changing::Deleted;
 pub use self::entry::{Difference, Entry};
 
 /// The folder of the notebook in a project.
@@ -90,6 +93,11 @@ impl Notebook {
         self.sort();
     }
 
+    /// Entries that are in memory alone.
+    pub fn unsaved(&self) -> impl Iterator<Item = &Kept> {
+        self.entries.iter().filter(|kept| kept.unsaved.is_some())
+    }
+
     fn sort(&mut self) {
         self.entries
             .sort_by(|a, b| (&b.entry.time, &b.entry.name).cmp(&(&a.entry.time, &a.entry.name)));
@@ -99,11 +107,9 @@ impl Notebook {
 impl Workbench {
     fn notebook_folder(&self) -> Result<PathBuf, String> {
         let project = self.files.project();
-        project.map(|project| project.join(NOTEBOOK)).ok_or_else(|| {
-            "The notebook lies in a project, and none is open: make one with `lightbench new project DIR`, \
-             and start the editor there. Until then entries are in memory alone."
-                .to_owned()
-        })
+        project
+            .map(|project| project.join(NOTEBOOK))
+            .ok_or_else(|| say!("notebook.the_notebook_lies_in_a_project").to_owned())
     }
 
     /// Reads the notebook, unless it is known.
@@ -129,7 +135,7 @@ impl Workbench {
         match task {
             Ok(task) => self.notebook.tasks.push(task),
             Err(error) => {
-                let text = format!("No thread for the notebook: {error}");
+                let text = say!("notebook.no_thread_for_the_notebook", error = error);
                 self.notebook.said = Some(Err(text));
             }
         }
@@ -142,14 +148,14 @@ impl Workbench {
     pub fn keep(&mut self, note: &str) -> Result<(), String> {
         self.open_notebook();
         if self.notebook.coming.is_some() {
-            return Err("The entry before is still being made.".to_owned());
+            return Err(say!("notebook.the_entry_before_is_still_being").to_owned());
         }
         let Some(view) = self.viewpoint() else {
-            return Err("There is no picture yet.".to_owned());
+            return Err(say!("notebook.there_is_no_picture_yet").to_owned());
         };
         let picture = self.shown_picture();
         let Some(picture) = picture else {
-            return Err("There is no picture yet.".to_owned());
+            return Err(say!("notebook.there_is_no_picture_yet").to_owned());
         };
         let now = jiff::Timestamp::now();
         let name = now.strftime("%Y-%m-%dT%H-%M-%SZ").to_string();
@@ -225,7 +231,10 @@ impl Workbench {
         let bytes = match reading.bytes() {
             Ok(bytes) => bytes,
             Err(error) => {
-                self.notebook.said = Some(Err(format!("The picture was not kept: {error}")));
+                self.notebook.said = Some(Err(say!(
+                    "notebook.the_picture_was_not_kept",
+                    error = error
+                )));
                 return;
             }
         };
@@ -257,11 +266,13 @@ impl Workbench {
         self.notebook.said = Some(match &kept.unsaved {
             None => {
                 kept.png = None;
-                Ok(format!("Kept as {NOTEBOOK}/{}.json.", kept.entry.name))
+                Ok(say!(
+                    "notebook.kept_as_json",
+                    notebook = NOTEBOOK,
+                    name = kept.entry.name
+                ))
             }
-            Some(why) => Err(format!(
-                "The entry is in memory alone, until the editor is closed: {why}"
-            )),
+            Some(why) => Err(say!("notebook.the_entry_is_in_memory_alone", why = why)),
         });
         self.notebook.add(kept);
     }
@@ -280,43 +291,6 @@ impl Workbench {
         });
     }
 
-    /// Changes the note of an entry.
-    pub fn set_note(&mut self, name: &str, note: &str) {
-        let folder = self.notebook_folder();
-        let mut all = self.notebook.entries.iter_mut();
-        let Some(kept) = all.find(|kept| kept.entry.name == name) else {
-            return;
-        };
-        if kept.entry.note == note {
-            return;
-        }
-        note.clone_into(&mut kept.entry.note);
-        let written = folder.and_then(|folder| disk::write(&folder, &kept.entry, kept.png()));
-        kept.unsaved = written.err();
-        self.notebook.said = kept.unsaved.clone().map(|why| {
-            Err(format!(
-                "The note is in memory alone, until the editor is closed: {why}"
-            ))
-        });
-    }
-
-    /// Deletes an entry with its picture.
-    pub fn delete_entry(&mut self, name: &str) {
-        let folder = self.notebook_folder();
-        let result = folder.and_then(|folder| disk::delete(&folder, name));
-        let kept = self.notebook.entries.iter().find(|k| k.entry.name == name);
-        let only_here = kept.is_some_and(|kept| kept.png.is_some());
-        match result {
-            Err(why) if !only_here => {
-                self.notebook.said = Some(Err(format!("{name} was not deleted: {why}")));
-            }
-            _ => {
-                self.notebook.entries.retain(|k| k.entry.name != name);
-                self.notebook.said = Some(Ok(format!("{name} was deleted.")));
-            }
-        }
-    }
-
     /// Goes to where an entry was kept: the view of A, and B beside it where there was one.
     ///
     /// # Errors
@@ -324,20 +298,29 @@ impl Workbench {
     pub fn restore(&mut self, name: &str) -> Result<(), String> {
         let found = self.notebook.entries.iter().find(|k| k.entry.name == name);
         let Some(entry) = found.map(|kept| kept.entry.clone()) else {
-            return Err(format!("There is no entry {name} any more."));
+            return Err(say!("notebook.there_is_no_entry_any_more", name = name));
         };
         let read = |text: &str| {
             let view = text.parse::<crate::viewpoint::Viewpoint>();
-            view.map_err(|error| format!("The view of {name} can't be read: {error}"))
+            view.map_err(|error| {
+                say!(
+                    "notebook.the_view_of_cant_be_read",
+                    name = name,
+                    error = error
+                )
+            })
         };
         let view = read(&entry.view)?;
         let other = entry.view_b.as_deref().map(read).transpose()?;
-        self.go_to(&view)?;
-        match other {
-            Some(other) => self.set_other(&other.pipeline, other.pipeline_settings),
-            None => self.compare(false),
-        }
-        Ok(())
+        let what = say!("history.entry", name = name);
+        self.as_place("view", &what, true, |this| {
+            this.go_to(&view)?;
+            match other {
+                Some(other) => this.set_other(&other.pipeline, other.pipeline_settings),
+                None => this.compare(false),
+            }
+            Ok(())
+        })
     }
 
     /// Writes all entries as a page of Markdown beside their pictures. Gives its path.
