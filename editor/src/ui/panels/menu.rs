@@ -1,8 +1,8 @@
 //! The menu bar: the table of actions, drawn.
 
-use egui::{Button, MenuBar, ScrollArea, Ui};
+use egui::{Button, MenuBar, Ui};
 
-use crate::ui::actions::{Action, Entry, key_text};
+use crate::ui::actions::{Action, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
 use crate::ui::menus::MENUS;
@@ -10,9 +10,6 @@ use crate::ui::messages::say;
 use crate::ui::messages::{message, text};
 use crate::ui::panels::palette::scene_title;
 use crate::ui::panels::pipelines::{favourites, key_of};
-
-/// Points of the window's height that a menu leaves: the menu bar, and the edge of the menu.
-const MARGIN: f32 = 48.0;
 
 /// Draws the menu bar.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -26,42 +23,35 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 if *menu == message!("menu.file") {
                     scenes_of_late(editor, ui);
                 }
-                // A menu that is longer than the window scrolls.
-                let room = (ui.ctx().content_rect().height() - MARGIN).max(MARGIN);
-                ScrollArea::vertical()
-                    .max_height(room)
-                    .show(ui, |ui| entries(editor, ui, groups));
+                for (index, group) in groups.iter().enumerate() {
+                    if index > 0 {
+                        ui.separator();
+                    }
+                    for entry in *group {
+                        let mark = match entry.action {
+                            Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
+                            Action::Tool(tool) => editor.viewport.handles.tool == tool,
+                            Action::LocalAxes => editor.viewport.handles.local,
+                            Action::Mark(mark) => {
+                                editor.marks_of(editor.workbench.focus()).has(mark)
+                            }
+                            Action::Compare(action) => action.is_in_force(&editor.workbench),
+                            _ => false,
+                        };
+                        let mut button = Button::new(entry.title()).selected(mark);
+                        if let Some(shortcut) = &entry.shortcut {
+                            button = button.shortcut_text(key_text(ui.ctx(), shortcut));
+                        }
+                        if ui.add(button).clicked() {
+                            let ctx = ui.ctx().clone();
+                            editor.perform(entry.action, &ctx);
+                            ui.close();
+                        }
+                    }
+                }
             });
         }
     });
-}
-
-/// The actions of a menu.
-fn entries(editor: &mut Editor, ui: &mut Ui, groups: &[&[Entry]]) {
-    for (index, group) in groups.iter().enumerate() {
-        if index > 0 {
-            ui.separator();
-        }
-        for entry in *group {
-            let mark = match entry.action {
-                Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
-                Action::Tool(tool) => editor.viewport.handles.tool == tool,
-                Action::LocalAxes => editor.viewport.handles.local,
-                Action::Mark(mark) => editor.marks_of(editor.workbench.focus()).has(mark),
-                Action::Compare(action) => action.is_in_force(&editor.workbench),
-                _ => false,
-            };
-            let mut button = Button::new(entry.title()).selected(mark);
-            if let Some(shortcut) = &entry.shortcut {
-                button = button.shortcut_text(key_text(ui.ctx(), shortcut));
-            }
-            if ui.add(button).clicked() {
-                let ctx = ui.ctx().clone();
-                editor.perform(entry.action, &ctx);
-                ui.close();
-            }
-        }
-    }
 }
 
 /// The scenes that were shown last.
