@@ -32,6 +32,8 @@ pub enum Action {
     LookFrom(Side),
     /// Back from an orthographic view to the camera that a person moves.
     Perspective,
+    /// Give the other viewport the focus.
+    OtherViewport,
     /// Show something over the picture, or hide it.
     Mark(Mark),
     /// Compare two pipelines, and keep what was found.

@@ -9,6 +9,7 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
+use super::arrangement::Arrangement;
 use super::code::Code;
 use super::dialogs::{Dialogs, Question};
 use super::gallery::Gallery;
@@ -31,6 +32,7 @@ use super::recovery::Recovery;
 use super::screen::Screen;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
+use super::workbench::viewports::Viewport;
 
 /// The state of the window's contents. [`Editor::ui`] draws it; who calls that owns the window.
 pub struct Editor {
@@ -67,10 +69,12 @@ pub struct Editor {
     pub(super) not_kept: Option<String>,
     /// The window that saves the scene, while it is open.
     pub(super) saving: Option<panels::saving::Saving>,
-    /// What is drawn over the picture.
-    pub(super) marks: Marks,
+    /// What is drawn over the picture of each viewport.
+    pub(super) marks: [Marks; 2],
     /// What is kept over restarts.
     pub kept: Kept,
+    /// How the window was arranged when that was last looked at.
+    pub(super) arranged: Option<Arrangement>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -98,7 +102,7 @@ const LARGER: f32 = 1.1;
 impl Editor {
     /// An editor whose widgets are drawn by `painter` on the workbench's device.
     pub fn new(
-        workbench: Workbench,
+        mut workbench: Workbench,
         painter: Arc<RwLock<egui_wgpu::Renderer>>,
         kept: Kept,
     ) -> Self {
@@ -106,7 +110,14 @@ impl Editor {
         let code = Code::new(kept.unsaved_folder(), workbench.files());
         let project = workbench.files().project();
         let recovery = keeping::open_recovery(kept.recovery_folder(), project);
-        let mut layout = layout::first();
+        let Arrangement {
+            panels: mut layout,
+            marks,
+            second,
+        } = kept.arrangement.clone().unwrap_or_default();
+        if let Some(look) = second {
+            workbench.second.look_through_later(look.sight());
+        }
         if !kept.lessons.open.is_empty() {
             layout::set_visible(&mut layout, Panel::Lesson, true);
         }
@@ -136,8 +147,9 @@ impl Editor {
             saving: None,
             recovery,
             not_kept: None,
-            marks: Marks::default(),
+            marks,
             kept,
+            arranged: None,
             bring: None,
             revealed: None,
             hint: true,
@@ -204,7 +216,9 @@ impl Editor {
             // The panels need the editor, and the tree is a part of it.
             let mut tree =
                 std::mem::replace(&mut self.layout, Tree::empty(egui::Id::unique("moved")));
+            panels::steering::begin(self);
             tree.ui(&mut Panels { editor: self, now }, ui);
+            panels::steering::end(self);
             if self.layout.is_empty() {
                 self.layout = tree;
             }
@@ -231,6 +245,7 @@ impl Editor {
         }
         self.take_dropped_files(&ctx);
         self.remember_scene();
+        self.remember_arrangement(&ctx);
 
         let held = ctx.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.was_typing = ctx.egui_wants_keyboard_input();
@@ -263,7 +278,8 @@ impl Editor {
             Action::ResetCamera => workbench.reset_camera(),
             Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
             Action::Perspective => workbench.look_through(Sight::Perspective),
-            Action::Mark(mark) => self.marks.toggle(mark),
+            Action::OtherViewport => workbench.set_focus(workbench.focus().other()),
+            Action::Mark(mark) => self.marks[workbench.focus() as usize].toggle(mark),
             Action::Compare(action) => super::compare_actions::perform(self, action, ctx),
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
@@ -292,6 +308,10 @@ impl Editor {
             Action::Toggle(panel) => {
                 let visible = layout::is_visible(&self.layout, panel);
                 layout::set_visible(&mut self.layout, panel, !visible);
+                if panel == Panel::Second && !visible {
+                    workbench.open_second();
+                    workbench.set_focus(Viewport::Second);
+                }
             }
             Action::ResetLayout => self.layout = layout::first(),
             Action::SwitchTheme => {
@@ -435,8 +455,13 @@ struct Panels<'a> {
 
 impl egui_tiles::Behavior<Panel> for Panels<'_> {
     fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, panel: &mut Panel) -> UiResponse {
-        if *panel == Panel::Viewport {
-            panels::viewport::show(self.editor, ui, self.now);
+        let viewport = match panel {
+            Panel::Viewport => Some(Viewport::First),
+            Panel::Second => Some(Viewport::Second),
+            _ => None,
+        };
+        if let Some(viewport) = viewport {
+            panels::viewport::show(self.editor, ui, self.now, viewport);
             return UiResponse::None;
         }
         let fill = ui.visuals().panel_fill;
@@ -462,7 +487,7 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Notebook => panels::notebook::show(self.editor, ui),
             Panel::Code => panels::code::show(self.editor, ui),
             Panel::Lesson => panels::lesson::show(self.editor, ui),
-            Panel::Viewport => {}
+            Panel::Viewport | Panel::Second => {}
         }
         UiResponse::None
     }

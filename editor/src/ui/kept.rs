@@ -7,10 +7,14 @@ use std::path::PathBuf;
 use lightbench::assets::files::write_atomic;
 use serde_json::{Map, Value};
 
+use super::arrangement::Arrangement;
 use crate::ui::messages::say;
 
 /// Lines of the console that are kept.
 const MOST_LINES: usize = 200;
+
+/// The name under which the arrangement of the window is kept.
+const ARRANGEMENT: &str = "arrangement";
 
 /// Scenes that are kept.
 const MOST_SCENES: usize = 8;
@@ -30,7 +34,6 @@ pub struct KeptLessons {
 }
 
 /// What is kept, and where.
-#[derive(Debug)]
 pub struct Kept {
     path: Option<PathBuf>,
     /// Whether there was no file yet: the editor starts for the first time.
@@ -47,7 +50,9 @@ pub struct Kept {
     pub dark: Option<bool>,
     /// How large text and widgets are, to what the system says: 1 as it says.
     pub scale: f32,
-    /// What other versions of the program have written.
+    /// How the window is arranged.
+    pub arrangement: Option<Arrangement>,
+    /// What other versions of the program have written, and what is not read anew.
     others: Map<String, Value>,
 }
 
@@ -110,6 +115,7 @@ impl Kept {
             }
             _ => KeptLessons::default(),
         };
+        let arrangement = others.get(ARRANGEMENT).and_then(Arrangement::read);
         let dark = others.remove("dark").and_then(|dark| dark.as_bool());
         let scale = others.remove("scale").and_then(|scale| scale.as_f64());
         Self {
@@ -121,6 +127,7 @@ impl Kept {
             scenes,
             favourites,
             lessons,
+            arrangement,
             others,
         }
     }
@@ -209,6 +216,18 @@ impl Kept {
     /// A sentence, where the file can't be written.
     pub fn reset_scale(&mut self) -> Result<(), String> {
         self.scale = 1.0;
+        self.write()
+    }
+
+    /// Keeps how the window is arranged.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. It holds until the program ends.
+    pub fn arrange(&mut self, arrangement: Arrangement) -> Result<(), String> {
+        if let Some(value) = arrangement.to_value() {
+            self.others.insert(ARRANGEMENT.to_owned(), value);
+        }
+        self.arrangement = Some(arrangement);
         self.write()
     }
 

@@ -1,14 +1,20 @@
 //! Which panels there are and how they lie.
 
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
+use serde::{Deserialize, Serialize};
 
 use crate::ui::messages::say;
 
-/// A panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use super::workbench::viewports::Viewport;
+
+/// A panel. Its name in the file of settings is that of the variant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Panel {
     /// The picture.
     Viewport,
+    /// Another one, of the same world.
+    Second,
     /// Any target of any pass.
     Targets,
     /// What each pass does to a pixel.
@@ -45,8 +51,9 @@ pub enum Panel {
 
 impl Panel {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Viewport,
+        Self::Second,
         Self::Targets,
         Self::Pixel,
         Self::Passes,
@@ -68,7 +75,8 @@ impl Panel {
     /// The words on its tab.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Viewport => say!("layout.viewport"),
+            Self::Viewport => Viewport::First.title(),
+            Self::Second => Viewport::Second.title(),
             Self::Targets => say!("layout.targets"),
             Self::Pixel => say!("layout.pixel"),
             Self::Passes => say!("layout.passes"),
@@ -102,6 +110,7 @@ pub fn first() -> Tree<Panel> {
     let lesson = tabs(&[Panel::Lesson]);
     let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
+    let second = tabs(&[Panel::Second]);
     let log = tabs(&[
         Panel::Log,
         Panel::Console,
@@ -118,10 +127,15 @@ pub fn first() -> Tree<Panel> {
     ]);
     let passes = tabs(&[Panel::Passes]);
     let targets = tabs(&[Panel::Targets, Panel::Pixel, Panel::Entities]);
+    let viewports = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(viewport, 0.5), (second, 0.5)],
+    );
     let left = split(
         &mut tiles,
         LinearDir::Vertical,
-        &[(viewport, 0.76), (log, 0.24)],
+        &[(viewports, 0.76), (log, 0.24)],
     );
     let right = split(
         &mut tiles,
@@ -137,6 +151,7 @@ pub fn first() -> Tree<Panel> {
     // They take their places when a lesson or a file is opened.
     set_visible(&mut tree, Panel::Lesson, false);
     set_visible(&mut tree, Panel::Code, false);
+    set_visible(&mut tree, Panel::Second, false);
     tree
 }
 
@@ -195,4 +210,23 @@ pub fn set_visible(tree: &mut Tree<Panel>, panel: Panel, visible: bool) {
             tree.make_active(|other, _| other == id);
         }
     }
+}
+
+/// Puts a panel that is not there into the tree, hidden. `None` where the tree has no place for it.
+pub fn add_hidden(tree: &mut Tree<Panel>, panel: Panel) -> Option<()> {
+    let root = tree.root()?;
+    let pane = tree.tiles.insert_pane(panel);
+    let tabs = tree.tiles.insert_tab_tile(vec![pane]);
+    match tree.tiles.get_mut(root)? {
+        Tile::Container(container) => container.add_child(tabs),
+        Tile::Pane(_) => {
+            let both = Linear::new(LinearDir::Horizontal, vec![root, tabs]);
+            let both = tree
+                .tiles
+                .insert_new(Tile::Container(Container::Linear(both)));
+            tree.root = Some(both);
+        }
+    }
+    set_visible(tree, panel, false);
+    Some(())
 }

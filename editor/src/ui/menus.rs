@@ -250,6 +250,19 @@ pub const MENUS: [(&str, &[&[Entry]]); 8] = [
                 ),
             ],
             &[
+                // Before the key without Shift, which fits both.
+                entry(
+                    Action::OtherViewport,
+                    message!("action.go_to_the_other_viewport"),
+                    shifted(Key::V),
+                ),
+                entry(
+                    Action::Toggle(Panel::Second),
+                    message!("action.second_viewport"),
+                    key(Key::V),
+                ),
+            ],
+            &[
                 entry(
                     Action::Perspective,
                     message!("action.perspective"),

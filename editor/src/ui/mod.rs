@@ -4,6 +4,7 @@
 //! it what a person wants; [`run`] puts the editor into a window that owns its device.
 
 pub mod actions;
+pub mod arrangement;
 pub mod bench;
 pub mod code;
 mod coding;

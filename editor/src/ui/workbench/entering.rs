@@ -50,9 +50,11 @@ impl Workbench {
             self.clock.playing = animated;
             self.camera.reset();
             self.follow_camera();
-            if let Some(distance) = self.typical_distance() {
+            let distance = self.typical_distance();
+            if let Some(distance) = distance {
                 self.camera.suit(distance);
             }
+            self.look_at_new_scene(distance);
             if self.is_arriving() {
                 self.begin_arrival();
             } else {

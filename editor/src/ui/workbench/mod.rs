@@ -7,6 +7,7 @@
 
 pub mod beside;
 pub mod camera;
+mod canvas;
 pub mod clock;
 pub mod comparing;
 pub mod compiling;
@@ -21,6 +22,7 @@ pub mod library;
 pub mod lighting;
 mod lines;
 pub mod log;
+mod looking;
 pub mod measuring;
 pub mod notebook;
 pub mod opening;
@@ -36,6 +38,7 @@ mod returning;
 mod running;
 pub mod saving;
 pub mod scenes;
+pub mod second;
 pub mod selection;
 mod setting;
 pub mod sight;
@@ -45,6 +48,7 @@ pub mod timing;
 pub mod trends;
 pub mod undo;
 mod viewing;
+pub mod viewports;
 pub mod views;
 mod watching;
 
@@ -56,14 +60,13 @@ use lightbench::assets::files::Files;
 use lightbench::render::overlay::OVERLAY_SHADERS;
 use lightbench::render::problem::Problems;
 use lightbench::render::{FrameStatistics, Gpu, GpuOptions, Problem, Renderer, View, inspect};
-use lightbench::script::SceneEvent;
 use lightbench::script::overlays::Overlays;
 
 use self::beside::Beside;
 use self::camera::CameraRig;
+use self::canvas::Canvas;
 use self::clock::Clock;
 use self::comparing::Comparing;
-use self::drawing::Canvas;
 use self::history::History;
 use self::library::Library;
 use self::lighting::Lighting;
@@ -77,12 +80,14 @@ use self::reporting::{Reporting, WorkerOptions};
 use self::resolution::Resolution;
 use self::resuming::Saved;
 use self::scenes::Scenes;
+use self::second::Second;
 use self::selection::Selection;
 use self::stepping::Stop;
 use self::timing::Timings;
 use self::trends::Trends;
 use self::undo::Undo;
 use self::viewing::Arriving;
+use self::viewports::Viewport;
 use self::views::Views;
 use self::watching::{Touched, Watch};
 use super::EditorOptions;
@@ -125,8 +130,15 @@ pub struct Workbench {
     worker: WorkerOptions,
     /// Where in the frame the picture stops.
     stop: Option<Stop>,
-    /// The lines over the picture.
-    lines: Option<lightbench::render::overlay::Lines>,
+    /// The lines over the pictures, by series.
+    lines: [Option<lightbench::render::overlay::Lines>; 2],
+    focus: Viewport,
+    /// Which viewport has drawn last.
+    last_drawn: Viewport,
+    /// Whether the first viewport can be seen.
+    first_is_seen: bool,
+    /// The second viewport.
+    pub second: Second,
     /// How the values of the target that is looked at spread.
     pub measuring: Measuring,
     /// The light at the probed pixel.
@@ -143,7 +155,7 @@ pub struct Workbench {
     pub scenes: Scenes,
     /// What can be chosen.
     pub library: Library,
-    /// Where the picture is seen from.
+    /// Where the first viewport's picture is seen from.
     pub camera: CameraRig,
     /// The scene's time.
     pub clock: Clock,
@@ -222,7 +234,11 @@ impl Workbench {
             noted_view: None,
             watched_camera: None,
             stop: None,
-            lines: None,
+            lines: [None, None],
+            focus: Viewport::First,
+            last_drawn: Viewport::First,
+            first_is_seen: true,
+            second: Second::default(),
             measuring: Measuring::default(),
             lighting: Lighting::default(),
             beside: Beside::default(),
@@ -254,11 +270,12 @@ impl Workbench {
         );
         self.move_other();
         self.canvas = Canvas::default();
+        self.second.forget_pictures();
         self.probing = Probing::default();
         self.measuring = Measuring::default();
         self.beside = Beside::default();
         // Asked for again with the next frame.
-        self.lines = None;
+        self.lines = [None, None];
         self.timings.reset();
         self.lost = None;
         self.inspect(request);
@@ -309,7 +326,10 @@ impl Workbench {
     /// All mistakes that keep the newest state off the screen.
     pub fn problems(&self) -> impl Iterator<Item = &Problem> {
         let sources = [self.scenes.problems(), self.pipelines.problems()];
-        let drawing = self.canvas.problem.as_slice().iter();
+        let canvases = Viewport::ALL.map(|viewport| self.canvas_of(viewport));
+        let drawing = canvases
+            .into_iter()
+            .filter_map(|canvas| canvas.problem.as_ref());
         sources
             .into_iter()
             .flatten()
@@ -318,31 +338,9 @@ impl Workbench {
             .chain(self.comparing.problems())
     }
 
-    /// Chooses a target to look at, or none.
-    pub fn inspect(&mut self, request: Option<inspect::Inspection>) {
-        self.renderer.inspector().look(&self.files, request);
-        self.canvas.invalidate();
-    }
-
     /// The cost of the last frame.
     pub fn statistics(&self) -> &FrameStatistics {
         &self.canvas.statistics
-    }
-
-    /// What is being looked at.
-    pub fn inspection(&mut self) -> Option<inspect::Inspection> {
-        self.renderer.inspector().request().cloned()
-    }
-
-    /// The texture of a target of the pipeline on screen.
-    pub fn target_texture(&mut self, name: &str) -> Option<wgpu::Texture> {
-        let targets = self.pipelines.shown_pipeline()?.targets()?;
-        Some(targets.get(name)?.texture.clone())
-    }
-
-    /// The picture of what is being looked at.
-    pub fn inspected(&mut self) -> Option<wgpu::Texture> {
-        self.renderer.inspector().picture().cloned()
     }
 
     /// Reads and builds everything again.
@@ -423,7 +421,7 @@ impl Workbench {
         if paths.iter().any(looks) {
             self.renderer.overlay().forget_shaders();
             // What could not be drawn is asked for again.
-            self.lines = None;
+            self.lines = [None, None];
             self.renderer.inspector().forget_shaders();
             self.comparing.forget_shaders();
             self.canvas.invalidate();
@@ -460,23 +458,6 @@ impl Workbench {
             }
         }
         self.pipeline_shown(before.as_deref());
-    }
-
-    /// Tells the scene's scripts what happens in the viewport.
-    pub fn happen(&mut self, event: SceneEvent) {
-        if let Some(scene) = self.scenes.scene_mut() {
-            scene.happen(event);
-        }
-    }
-
-    fn follow_camera(&mut self) {
-        let Some(scene) = self.scenes.scene_mut() else {
-            return;
-        };
-        scene.refresh();
-        let first = View::from_world(&scene.world).unwrap_or_default();
-        let home = self.watched_view().unwrap_or(first);
-        self.camera.follow(home);
     }
 
     fn log_problems(&mut self, problems: &Problems) {

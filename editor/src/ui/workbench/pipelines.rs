@@ -121,6 +121,14 @@ impl Pipelines {
         }
     }
 
+    /// Gives back the memory that all pipelines hold for the pictures of a series.
+    pub fn release_series(&mut self, series: usize) {
+        for slot in self.slots.values_mut() {
+            let built = slot.next.iter_mut().chain(&mut slot.pipeline);
+            built.for_each(|pipeline| pipeline.release_series(series));
+        }
+    }
+
     /// A visited pipeline.
     pub fn slot(&self, name: &str) -> Option<&Slot> {
         self.slots.get(name)

@@ -83,8 +83,9 @@ impl Workbench {
     /// As [`Workbench::edit`].
     pub fn create(&mut self, kind: NewKind) -> Result<(), String> {
         let place = match kind {
-            NewKind::Camera if self.camera.flat().is_none() => {
-                let to_world = Affine3A::from_mat4(self.camera.view().view.inverse());
+            NewKind::Camera if self.camera_of(self.focus()).flat().is_none() => {
+                let to_world =
+                    Affine3A::from_mat4(self.camera_of(self.focus()).view().view.inverse());
                 let (_, rotation, translation) = to_world.to_scale_rotation_translation();
                 Transform {
                     rotation,
@@ -93,10 +94,10 @@ impl Workbench {
                 }
             }
             NewKind::SpotLight | NewKind::DirectionalLight => {
-                let at = self.camera.pivot();
+                let at = self.camera_of(self.focus()).pivot();
                 Transform::looking_at(at, at + Vec3::NEG_Y, Vec3::Y)
             }
-            _ => Transform::from_translation(self.camera.pivot()),
+            _ => Transform::from_translation(self.camera_of(self.focus()).pivot()),
         };
         self.edit(Edit::Create {
             kind,

@@ -1,7 +1,8 @@
 //! What was looked at: the camera and what was chosen, with a way back and forth of its own.
 //!
 //! Who changes something, turns the view to look at it and takes the change back wants the view to stay.
-//! So views are no steps among changes, as in most programs of the kind.
+//! So views are no steps among changes, as in most programs of the kind. They are those of the first
+//! viewport.
 
 use std::time::{Duration, Instant};
 
@@ -9,6 +10,7 @@ use lightbench::world::{Entity, Name};
 
 use super::Workbench;
 use super::sight::Sight;
+use super::viewports::Viewport;
 use crate::ui::messages::say;
 use crate::viewpoint::Eye;
 
@@ -116,7 +118,7 @@ impl Workbench {
         if self.is_between_scenes() || self.scenes.scene().is_none() {
             return;
         }
-        let eye = self.eye();
+        let eye = self.eye(Viewport::First);
         let chosen: Vec<Entity> = self.selection.entities().collect();
         let last = self.views.all.get(self.views.at);
         let same = last.is_some_and(|last| last.eye == eye && last.chosen == chosen);
@@ -181,7 +183,7 @@ impl Workbench {
         self.views.at = index;
         self.views.revision += 1;
         self.views.seal();
-        self.look_with(looked.eye);
+        self.look_with(Viewport::First, looked.eye);
         if let Some(scene) = self.scenes.scene() {
             // In a scene that was loaded anew the same names stand for other entities.
             let now = looked.chosen.iter().zip(&looked.names);
@@ -196,12 +198,13 @@ impl Workbench {
         self.canvas.invalidate();
     }
 
-    fn look_with(&mut self, eye: Eye) {
+    /// Has a viewport see from where somebody was.
+    pub(super) fn look_with(&mut self, viewport: Viewport, eye: Eye) {
         match eye {
-            Eye::Scene => self.reset_camera(),
-            Eye::Named(name) => self.look_through(Sight::Camera(name)),
-            Eye::Free(free) => self.camera.stand(free),
-            Eye::Side(flat) => self.camera.show_flat(flat),
+            Eye::Scene => self.reset_camera_of(viewport),
+            Eye::Named(name) => self.look_through_in(viewport, Sight::Camera(name)),
+            Eye::Free(free) => self.camera_of_mut(viewport).stand(free),
+            Eye::Side(flat) => self.camera_of_mut(viewport).show_flat(flat),
         }
     }
 

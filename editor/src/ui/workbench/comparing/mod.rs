@@ -21,6 +21,7 @@ use self::judging::Judge;
 use self::side::Side;
 use super::Workbench;
 use super::pipelines::News;
+use super::viewports::Viewport;
 use crate::ui::messages::say;
 
 pub use self::judging::{Judged, Judgement};
@@ -339,6 +340,8 @@ impl Workbench {
             return;
         }
         std::mem::swap(&mut self.pipelines, &mut side.pipelines);
+        // The second viewport shows A.
+        side.pipelines.release_series(Viewport::Second.series());
         self.comparing.waiting = None;
         // Frames on their way belong to the other side now.
         self.timings.reset();

@@ -5,6 +5,7 @@ use lightbench::script::Settings;
 use super::super::Workbench;
 use super::super::pipelines::Pipelines;
 use super::super::viewing::Arriving;
+use super::super::viewports::Viewport;
 use super::{Change, Content, Target};
 use crate::ui::messages::say;
 use crate::viewpoint::Eye;
@@ -70,7 +71,7 @@ impl Workbench {
     /// Where the editor stands, with how the scene is seen where that counts.
     pub(super) fn place(&self, seen: bool) -> Place {
         let seen = seen.then(|| Seen {
-            eye: self.eye(),
+            eye: self.eye(Viewport::First),
             time: self.clock.time(),
             playing: self.clock.playing,
         });
@@ -163,6 +164,7 @@ impl Workbench {
         let time = if seen.playing { 0.0 } else { seen.time };
         self.arriving = Some(Arriving {
             camera: seen.eye.clone(),
+            viewport: Viewport::First,
             steps: Steps::to(time),
             is_there: false,
             then_plays: seen.playing,
@@ -174,7 +176,7 @@ impl Workbench {
     }
 
     fn is_seen_so(&self, seen: &Seen) -> bool {
-        self.eye() == seen.eye
+        self.eye(Viewport::First) == seen.eye
             && self.clock.playing == seen.playing
             && (seen.playing || self.clock.time() == seen.time)
     }
