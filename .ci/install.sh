@@ -30,6 +30,12 @@ packages_for() {
         window:zypper)
             echo libX11-6 libX11-xcb1 libXcursor1 libXi6 libxkbcommon0 libxkbcommon-x11-0 libwayland-client0
             ;;
+        screen:apt-get) echo xvfb libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon0 libxkbcommon-x11-0 ;;
+        screen:dnf) echo xorg-x11-server-Xvfb libX11 libX11-xcb libXcursor libXi libxkbcommon libxkbcommon-x11 ;;
+        screen:pacman) echo xorg-server-xvfb libx11 libxcursor libxi libxkbcommon libxkbcommon-x11 ;;
+        screen:zypper)
+            echo xorg-x11-server-Xvfb libX11-6 libX11-xcb1 libXcursor1 libXi6 libxkbcommon0 libxkbcommon-x11-0
+            ;;
     esac
 }
 
@@ -123,7 +129,7 @@ explain_mending() {
 }
 
 # Sets `missing` (one line each) and `groups` (what to install) for the given needs: rust,
-# compiler, driver, software, window.
+# compiler, driver, software, window, screen.
 look() {
     local need line group
     missing=() groups=()
@@ -134,6 +140,7 @@ look() {
             driver) line=$(check_driver any) group=driver ;;
             software) line=$(check_driver software) group=driver ;;
             window) line=$(check_window) group=window ;;
+            screen) line=$(check_screen) group=screen ;;
         esac
         if [ -z "$line" ]; then continue; fi
         missing+=("$line")

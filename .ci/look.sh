@@ -139,6 +139,18 @@ check_window() {
     if [ -n "$absent" ]; then printf 'libraries for the window (no%s)\n' "$absent"; fi
 }
 
+# A display of its own for the test that works in a real window.
+check_screen() {
+    local library absent=
+    if [ "$system" != Linux ]; then return; fi
+    for library in "${window_libraries[@]}"; do
+        case $library in *wayland*) continue ;; esac
+        have_library "$library" || absent="$absent $library"
+    done
+    if ! command -v Xvfb >/dev/null; then absent="$absent Xvfb"; fi
+    if [ -n "$absent" ]; then printf 'a virtual display for the tests (no%s)\n' "$absent"; fi
+}
+
 # Uses the driver in the user's home where the system lacks one.
 adopt_user_driver() {
     if [ -z "$chosen_driver" ] && [ -r "$user_driver/env" ] && [ -n "$(check_driver "$1")$(check_window)" ]; then

@@ -291,6 +291,23 @@ fn a_pack_leaves_out_the_answers() {
         "irradiance",
     ];
     run_in(place.path(), &check, &[]).succeeded();
+    // A project knows the folder of its lesson, also where the program has none of that name.
+    let other = place.path().join("packs/70-of-our-own");
+    let text = fs::read_to_string(pack.join("lesson.toml")).unwrap();
+    fs::rename(&pack, &other).unwrap();
+    fs::write(
+        other.join("lesson.toml"),
+        text.replace("order = 1\n", "order = 70\n"),
+    )
+    .unwrap();
+    let begin = ["lesson", "start", "packs/70-of-our-own", "--into", "ours"];
+    run_in(place.path(), &begin, &[]).succeeded();
+    let project = place.path().join("ours");
+    solve(&project, "shaders/lib/by_hand.wgsl");
+    let check = ["check", "--task", "irradiance"];
+    run_in(&project, &check, &[]).succeeded();
+    fs::remove_dir_all(&other).unwrap();
+    run_in(&project, &check, &[]).failed(1, &["there is no lesson `70-of-our-own`"]);
     let listed = run_in(place.path(), &["list", "files"], &[]).succeeded();
     assert!(listed.stdout.contains("lessons/01-first-light/lesson.toml"));
     assert!(

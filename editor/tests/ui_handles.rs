@@ -31,6 +31,8 @@ fn open() -> Bench {
         assert!(!Bench::has_problems(editor));
         editor.workbench.scenes.shown() == Some("things") && !editor.workbench.scenes.is_busy()
     });
+    // The choice of the scene is a step too.
+    bench.harness.state_mut().workbench.undo.clear();
     bench.harness.run_steps(2);
     bench
 }
@@ -328,6 +330,8 @@ fn the_history_goes_to_any_step_over_fields_parameters_and_resets() {
         (60.0, Some("1.5"))
     );
 
+    // High enough for all rows.
+    bench.harness.set_size(egui::vec2(1280.0, 1300.0));
     bench.show(Panel::History);
     let click = |bench: &mut Bench, label: &str| {
         let node = bench.harness.get_by_role_and_label(Role::Button, label);
@@ -342,7 +346,7 @@ fn the_history_goes_to_any_step_over_fields_parameters_and_resets() {
         (world(&bench), exposure(&bench).as_deref()),
         (80.0, Some("1.5"))
     );
-    click(&mut bench, "As the script has it");
+    click(&mut bench, "As it was at the start");
     assert_eq!((world(&bench), exposure(&bench)), (60.0, None));
     click(&mut bench, "Redo");
     assert_eq!(world(&bench), 70.0);
@@ -421,6 +425,7 @@ fn parameters_of_scene_and_behaviours_are_taken_back_also_after_a_load() {
     };
     settled(&mut bench, 1.0);
     bench.harness.state_mut().workbench.stop();
+    bench.harness.state_mut().workbench.undo.clear();
     let behaviour = |bench: &Bench| {
         let scene = bench.harness.state().workbench.scenes.scene().unwrap();
         let behaviour = scene.behaviours().remove(0);

@@ -11,6 +11,7 @@ use lightbench::world::glam::Vec3;
 use lightbench_editor::ui::layout::Panel;
 use lightbench_editor::ui::lens::Lens;
 use lightbench_editor::ui::workbench::trends::Trend;
+use lightbench_editor::ui::workbench::viewports::Viewport;
 
 use ui_support::Bench;
 
@@ -50,7 +51,7 @@ fn menu(bench: &mut Bench, title: &str, entry: &str) {
 fn lines(bench: &mut Bench) -> Vec<(f32, f32, [u8; 4])> {
     bench.picture();
     let workbench = &mut bench.harness.state_mut().workbench;
-    let Some(texture) = workbench.lines_picture() else {
+    let Some(texture) = workbench.lines_picture(Viewport::First) else {
         return Vec::new();
     };
     let bytes = read_bytes(workbench.gpu(), &texture).unwrap();

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::anyhow;
 use clap::Args;
 use lightbench::assets::files::Files;
+use lightbench::lab::lesson::{About, find_lesson, lesson_of};
 
 use super::arguments::{GpuArguments, SceneArguments};
 use super::doctor;
@@ -23,12 +24,14 @@ Examples:
 Open a shader or a script of the project in any text editor beside it: save, and the picture
 changes. `lightbench copy` brings a shipped file into the project.")]
 pub struct Arguments {
-    /// A scene's name, as in `lightbench list scenes`, or the path of a .rhai file
-    #[arg(value_name = "SCENE", default_value = "atrium")]
-    scene: String,
-    /// The pipeline to begin with: a name or the path of a .rhai file
-    #[arg(long, value_name = "PIPELINE", default_value = "deferred_shading")]
-    pipeline: String,
+    /// A scene's name, as in `lightbench list scenes`, or the path of a .rhai file; without it, that of
+    /// the lesson that the project was begun from, or atrium
+    #[arg(value_name = "SCENE")]
+    scene: Option<String>,
+    /// The pipeline to begin with: a name or the path of a .rhai file; without it, that of the lesson,
+    /// or deferred_shading
+    #[arg(long, value_name = "PIPELINE")]
+    pipeline: Option<String>,
     #[command(flatten)]
     scene_arguments: SceneArguments,
     #[command(flatten)]
@@ -46,10 +49,22 @@ pub fn run(arguments: &Arguments, mut files: Files, limits: Option<&Path>) -> an
              writes a picture and `lightbench compare` a report"
         )
     })?;
+    let begun = files.project().and_then(lesson_of);
+    // A lesson with mistakes is told in the window.
+    let lesson = begun.and_then(|begun| find_lesson(&files, begun.asked()).ok());
+    let of_lesson = |name: fn(&About) -> &String, or: &str| {
+        let named = lesson.as_ref().map(|lesson| name(&lesson.about).clone());
+        named.unwrap_or_else(|| or.to_owned())
+    };
+    let scene = arguments.scene.clone();
+    let scene = scene.unwrap_or_else(|| of_lesson(|about| &about.scene, "atrium"));
+    let pipeline = arguments.pipeline.clone();
+    let pipeline =
+        pipeline.unwrap_or_else(|| of_lesson(|about| &about.pipeline, "deferred_shading"));
     let request = Request {
-        scene: &arguments.scene,
+        scene: &scene,
         arguments: &arguments.scene_arguments,
-        pipelines: std::slice::from_ref(&arguments.pipeline),
+        pipelines: std::slice::from_ref(&pipeline),
         gpu: &arguments.gpu,
     };
     let scripts = load::scripts(&mut files, &request)?;

@@ -12,6 +12,7 @@ use super::code::document::{Document, SaveError};
 use super::code::{Leaving, Spot};
 use super::dialogs::Question;
 use super::editor::Editor;
+use super::keeping::open_recovery;
 use super::layout::Panel;
 use super::panels::saving::Saving;
 use crate::ui::messages::say;
@@ -167,15 +168,6 @@ impl Editor {
         self.code_panel.focus();
     }
 
-    /// Closes the window, after what was not saved was decided about.
-    pub fn ask_to_quit(&mut self) {
-        if self.code.unsaved().next().is_some() {
-            self.code.leaving = Some(Leaving::Window);
-        } else {
-            self.quit();
-        }
-    }
-
     /// Takes in what changed on the disk, and keeps what is not saved.
     pub(super) fn tend_code(&mut self, now: Instant, focused: bool) {
         if focused && !self.was_focused {
@@ -187,6 +179,8 @@ impl Editor {
             let paths: Vec<String> = touched.paths.into_iter().collect();
             let changed = (!touched.everything).then_some(paths.as_slice());
             self.code.refresh(self.workbench.files(), changed);
+            self.lessons.changed(self.workbench.files(), changed);
+            self.lesson_panel.pictures.forget();
             self.pictures.files_changed(&paths);
             self.assets.shelves.forget();
         }
@@ -197,14 +191,16 @@ impl Editor {
 
     /// Whether something is asked that comes before all else.
     pub(super) fn has_question(&self) -> bool {
-        self.code.leaving.is_some() || self.dialogs.is_typing()
+        self.code.leaving.is_some() || self.dialogs.is_typing() || !self.recovery.left.is_empty()
     }
 
     /// Asks for a file or a folder.
     pub(super) fn ask_for(&mut self, question: Question) {
         let project = self.workbench.files().project();
         let begin_at = match question {
-            Question::Project => project.and_then(Path::parent).map(Path::to_owned),
+            Question::Project | Question::Lesson => {
+                project.and_then(Path::parent).map(Path::to_owned)
+            }
             Question::Picture | Question::Texture | Question::Model => project.map(Path::to_owned),
             Question::Scene | Question::SaveScene => project
                 .map(|project| project.join(SCENES))
@@ -219,16 +215,20 @@ impl Editor {
             return;
         };
         let done = match question {
-            Question::Project if self.code.unsaved().next().is_some() => {
+            Question::Project if self.has_something_to_lose() => {
                 self.code.leaving = Some(Leaving::Project(path.clone()));
                 Ok(())
             }
-            Question::Project => self.try_to_open_project(&path),
+            Question::Project => self.try_to_open_project(&path, false),
             Question::Picture => self.take_picture(&path),
             Question::Texture => self.add_texture(&path),
             Question::Model => self.add_model(&path),
             Question::Scene => self.try_to_open_file(&path),
             Question::SaveScene => self.save_scene_to(&path),
+            Question::Lesson => {
+                self.lessons.beginning.folder = path.to_string_lossy().into_owned();
+                Ok(())
+            }
         };
         if let Err(why) = done {
             self.dialogs.refuse(question, &path, why);
@@ -236,23 +236,31 @@ impl Editor {
     }
 
     /// Goes on with another project. What keeps it from that is asked about again.
-    pub(super) fn open_project(&mut self, folder: &Path) {
-        if let Err(why) = self.try_to_open_project(folder) {
+    pub(super) fn open_project(&mut self, folder: &Path, keeps: bool) {
+        if let Err(why) = self.try_to_open_project(folder, keeps) {
             self.dialogs.refuse(Question::Project, folder, why);
         }
     }
 
-    fn try_to_open_project(&mut self, folder: &Path) -> Result<(), String> {
+    /// `keeps` leaves what was kept of the present project for when it is opened again.
+    pub(super) fn try_to_open_project(&mut self, folder: &Path, keeps: bool) -> Result<(), String> {
         let is_empty = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
         let folder: PathBuf = if is_empty || !folder.exists() {
             create_project(folder).map_err(|error| error.to_string())?
         } else {
             folder.to_owned()
         };
+        let has_changes = !self.workbench.unsaved_changes().is_empty();
         self.workbench.open_project(&folder)?;
+        if !(keeps && has_changes) {
+            self.recovery.forget();
+        }
+        let project = self.workbench.files().project();
+        self.recovery = open_recovery(self.kept.recovery_folder(), project);
         let root = self.kept.unsaved_folder();
         self.code.move_to(root, self.workbench.files());
         self.forget_opened_file();
+        self.show_scene_of_lesson();
         Ok(())
     }
 

@@ -2,9 +2,10 @@
 
 use egui::Key;
 
-use super::actions::{Action, Entry, command, entry, key, shifted};
+use super::actions::{Action, Entry};
 use super::editor::Editor;
 use super::layout::Panel;
+use super::menus::{command, entry, key, shifted};
 use super::messages::message;
 use super::panels::compare::report;
 use super::panels::notebook;

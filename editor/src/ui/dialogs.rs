@@ -29,6 +29,8 @@ pub enum Question {
     Model,
     /// Where to write the scene on screen.
     SaveScene,
+    /// Where to begin a lesson.
+    Lesson,
 }
 
 impl Question {
@@ -39,6 +41,7 @@ impl Question {
             Self::Picture | Self::Texture => say!("assets.ask_picture"),
             Self::Model => say!("assets.ask_model"),
             Self::SaveScene => say!("dialogs.save_the_scene_as"),
+            Self::Lesson => say!("lesson.folder_title"),
         }
     }
 
@@ -53,6 +56,7 @@ impl Question {
             Self::Picture | Self::Texture => say!("assets.ask_picture_about"),
             Self::Model => say!("assets.ask_model_about"),
             Self::SaveScene => say!("dialogs.the_file_to_write_it_ends"),
+            Self::Lesson => say!("lesson.folder_about"),
         }
     }
 }
@@ -119,7 +123,7 @@ impl Dialogs {
             dialog = dialog.set_directory(folder);
         }
         let answer: Answer = match question {
-            Question::Project => Box::pin(dialog.pick_folder()),
+            Question::Project | Question::Lesson => Box::pin(dialog.pick_folder()),
             Question::Scene => {
                 let endings = ["rhai", SCENE_EXTENSION, "obj", "gltf", "glb"];
                 Box::pin(

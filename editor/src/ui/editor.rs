@@ -9,15 +9,19 @@ use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
+use super::arrangement::Arrangement;
 use super::code::Code;
 use super::dialogs::{Dialogs, Question};
 use super::gallery::Gallery;
+use super::keeping;
 use super::kept::Kept;
 use super::layout::{self, Panel};
+use super::lesson::Lessons;
 use super::panels::assets::AssetsPanel;
 use super::panels::code::CodePanel;
 use super::panels::console::ConsolePanel;
 use super::panels::entities::EntitiesPanel;
+use super::panels::lesson::LessonPanel;
 use super::panels::marks::Marks;
 use super::panels::materials::MaterialsPanel;
 use super::panels::notebook::NotebookPanel;
@@ -27,9 +31,11 @@ use super::panels::view_text::PasteWindow;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::pictures::Pictures;
+use super::recovery::Recovery;
 use super::screen::Screen;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
+use super::workbench::viewports::Viewport;
 
 /// The state of the window's contents. [`Editor::ui`] draws it; who calls that owns the window.
 pub struct Editor {
@@ -51,6 +57,9 @@ pub struct Editor {
     pub(super) code_panel: CodePanel,
     /// What there is to look at.
     pub gallery: Gallery,
+    /// Lessons, and the one that is open.
+    pub lessons: Lessons,
+    pub(super) lesson_panel: LessonPanel,
     /// Whether it is said what to try first.
     pub welcome: bool,
     /// Questions for files and folders.
@@ -61,12 +70,18 @@ pub struct Editor {
     pub(super) paste: Option<PasteWindow>,
     /// The palette, while it is open.
     pub(super) palette: Option<Palette>,
+    /// What is kept so that a crash takes little.
+    pub recovery: Recovery,
+    /// Why what should be kept before the window closes is not.
+    pub(super) not_kept: Option<String>,
     /// The window that saves the scene, while it is open.
     pub(super) saving: Option<panels::saving::Saving>,
-    /// What is drawn over the picture.
-    pub(super) marks: Marks,
+    /// What is drawn over the picture of each viewport.
+    pub(super) marks: [Marks; 2],
     /// What is kept over restarts.
     pub kept: Kept,
+    /// How the window was arranged when that was last looked at.
+    pub(super) arranged: Option<Arrangement>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -75,7 +90,7 @@ pub struct Editor {
     pub hint: bool,
     pub(super) help: bool,
     pub(super) about: bool,
-    quit: bool,
+    pub(super) quit: bool,
     /// Whether a widget had the keys in the last frame.
     pub(super) was_typing: bool,
     /// Whether the window had the keys in the last frame.
@@ -84,18 +99,35 @@ pub struct Editor {
     opened: Option<PathBuf>,
     /// The swap of scenes that is kept among those of late.
     remembered: u64,
+    /// Whether the window's context has what was chosen for it.
+    is_dressed: bool,
 }
+
+/// How much larger text gets at once.
+const LARGER: f32 = 1.1;
 
 impl Editor {
     /// An editor whose widgets are drawn by `painter` on the workbench's device.
     pub fn new(
-        workbench: Workbench,
+        mut workbench: Workbench,
         painter: Arc<RwLock<egui_wgpu::Renderer>>,
         kept: Kept,
     ) -> Self {
         let screen = Screen::new(workbench.gpu().device.clone(), painter);
         let code = Code::new(kept.unsaved_folder(), workbench.files());
-        let mut layout = layout::first();
+        let project = workbench.files().project();
+        let recovery = keeping::open_recovery(kept.recovery_folder(), project);
+        let Arrangement {
+            panels: mut layout,
+            marks,
+            second,
+        } = kept.arrangement.clone().unwrap_or_default();
+        if let Some(look) = second {
+            workbench.second.look_through_later(look.sight());
+        }
+        if !kept.lessons.open.is_empty() {
+            layout::set_visible(&mut layout, Panel::Lesson, true);
+        }
         if !code.offered.is_empty() {
             layout::set_visible(&mut layout, Panel::Code, true);
         }
@@ -104,6 +136,8 @@ impl Editor {
             code_panel: CodePanel::default(),
             dialogs: Dialogs::default(),
             gallery: Gallery::new(),
+            lessons: super::lessoning::kept_lessons(&kept, workbench.files()),
+            lesson_panel: LessonPanel::default(),
             welcome: kept.is_new,
             workbench,
             screen,
@@ -121,8 +155,11 @@ impl Editor {
             paste: None,
             palette: None,
             saving: None,
-            marks: Marks::default(),
+            recovery,
+            not_kept: None,
+            marks,
             kept,
+            arranged: None,
             bring: None,
             revealed: None,
             hint: true,
@@ -133,6 +170,7 @@ impl Editor {
             was_focused: true,
             opened: None,
             remembered: 0,
+            is_dressed: false,
         }
     }
 
@@ -140,6 +178,7 @@ impl Editor {
     pub fn move_to(&mut self, gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>) {
         self.screen = Screen::new(gpu.device.clone(), painter);
         self.gallery.thumbnails.forget();
+        self.is_dressed = false;
         self.pictures.forget();
         self.workbench.move_to(gpu);
     }
@@ -154,6 +193,16 @@ impl Editor {
         layout::set_visible(&mut self.layout, panel, true);
     }
 
+    /// Puts the panels into another order.
+    pub fn lay_out(&mut self, layout: Tree<Panel>) {
+        self.layout = layout;
+    }
+
+    /// Where a panel was drawn in the last frame, in points; `None` where it is not shown.
+    pub fn rect_of(&self, panel: Panel) -> Option<egui::Rect> {
+        layout::rect(&self.layout, panel)
+    }
+
     /// Whether somebody asked to close the window.
     pub fn wants_to_quit(&self) -> bool {
         self.quit
@@ -164,7 +213,10 @@ impl Editor {
         let now = Instant::now();
         self.workbench.tick(now);
         let ctx = ui.ctx().clone();
+        self.dress(&ctx);
         self.tend_code(now, ctx.input(|input| input.focused));
+        self.tend_recovery(now);
+        self.tend_lessons();
         panels::code::keys(self, &ctx);
         actions::keyboard(self, &ctx);
 
@@ -175,7 +227,9 @@ impl Editor {
             // The panels need the editor, and the tree is a part of it.
             let mut tree =
                 std::mem::replace(&mut self.layout, Tree::empty(egui::Id::unique("moved")));
+            panels::steering::begin(self);
             tree.ui(&mut Panels { editor: self, now }, ui);
+            panels::steering::end(self);
             if self.layout.is_empty() {
                 self.layout = tree;
             }
@@ -201,7 +255,8 @@ impl Editor {
         panels::gallery::show(self, &ctx);
         panels::palette::show(self, &ctx);
         panels::view_text::show(self, &ctx);
-        panels::code::leaving::show(self, &ctx);
+        panels::leaving::show(self, &ctx);
+        panels::recovery::show(self, &ctx);
         self.follow_dialogs(&ctx);
         panels::saving::show(self, &ctx);
         if let Some(panel) = self.revealed.take() {
@@ -210,14 +265,21 @@ impl Editor {
         }
         self.take_dropped_files(&ctx);
         self.remember_scene();
+        self.remember_arrangement(&ctx);
 
-        let busy = ctx.input(|input| input.pointer.any_down());
+        let held = ctx.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.was_typing = ctx.egui_wants_keyboard_input();
-        if !busy && !self.was_typing {
+        self.workbench.note_dials();
+        self.workbench.note_view(now, held);
+        if !held && !self.was_typing {
             self.workbench.undo.seal();
         }
 
-        let due = [self.workbench.next_due(now), self.code.next_due(now)];
+        let due = [
+            self.workbench.next_due(now),
+            self.code.next_due(now),
+            self.recovery.next_due(now),
+        ];
         if let Some(due) = due.into_iter().flatten().min() {
             ctx.request_repaint_after(due);
         }
@@ -236,11 +298,14 @@ impl Editor {
             Action::ResetCamera => workbench.reset_camera(),
             Action::LookFrom(side) => workbench.look_through(Sight::Side(side)),
             Action::Perspective => workbench.look_through(Sight::Perspective),
-            Action::Mark(mark) => self.marks.toggle(mark),
+            Action::OtherViewport => workbench.set_focus(workbench.focus().other()),
+            Action::Mark(mark) => self.marks[workbench.focus() as usize].toggle(mark),
             Action::Compare(action) => super::compare_actions::perform(self, action, ctx),
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Undo => _ = workbench.undo(),
             Action::Redo => _ = workbench.redo(),
+            Action::ViewBack => _ = workbench.view_back(),
+            Action::ViewForth => _ = workbench.view_forth(),
             Action::Tool(tool) => self.viewport.handles.tool = tool,
             Action::LocalAxes => self.viewport.handles.local = !self.viewport.handles.local,
             // Out of the walk through the frame first.
@@ -263,6 +328,10 @@ impl Editor {
             Action::Toggle(panel) => {
                 let visible = layout::is_visible(&self.layout, panel);
                 layout::set_visible(&mut self.layout, panel, !visible);
+                if panel == Panel::Second && !visible {
+                    workbench.open_second();
+                    workbench.set_focus(Viewport::Second);
+                }
             }
             Action::ResetLayout => self.layout = layout::first(),
             Action::SwitchTheme => {
@@ -273,7 +342,12 @@ impl Editor {
                     egui::Theme::Dark
                 };
                 ctx.set_theme(other);
+                let kept = self.kept.choose_dark(!dark);
+                self.tell_if_not_kept(kept);
             }
+            Action::LargerText => self.scale_text(Some(LARGER), ctx),
+            Action::SmallerText => self.scale_text(Some(1.0 / LARGER), ctx),
+            Action::UsualText => self.scale_text(None, ctx),
             Action::Help => self.help = !self.help,
             Action::About => self.about = true,
             Action::EditScene => self.edit_scene(),
@@ -288,6 +362,8 @@ impl Editor {
                 );
                 self.gallery.open(&files, &wake);
             }
+            Action::Lessons => self.reveal(Panel::Lesson),
+            Action::CheckLesson => self.check_lesson(),
             Action::Welcome => self.welcome = true,
             Action::Quit => self.ask_to_quit(),
         }
@@ -323,11 +399,6 @@ impl Editor {
         self.opened = None;
     }
 
-    /// Closes the window in the next frame.
-    pub(super) fn quit(&mut self) {
-        self.quit = true;
-    }
-
     /// Opens the files that were dropped onto the window.
     fn take_dropped_files(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
@@ -354,6 +425,38 @@ impl Editor {
         }
     }
 
+    /// Makes text and widgets larger or smaller, or as large as the system says.
+    fn scale_text(&mut self, factor: Option<f32>, ctx: &egui::Context) {
+        let kept = match factor {
+            Some(factor) => self.kept.scale_by(factor),
+            None => self.kept.reset_scale(),
+        };
+        self.tell_if_not_kept(kept);
+        ctx.set_zoom_factor(self.kept.scale);
+    }
+
+    fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
+        if let Err(error) = kept {
+            self.workbench.log.warn(error);
+        }
+    }
+
+    /// Gives a context that is new what somebody chose: a dark window or a light one, and how large text is.
+    fn dress(&mut self, ctx: &egui::Context) {
+        if std::mem::replace(&mut self.is_dressed, true) {
+            return;
+        }
+        if let Some(dark) = self.kept.dark {
+            ctx.set_theme(match dark {
+                true => egui::Theme::Dark,
+                false => egui::Theme::Light,
+            });
+        }
+        // The editor has keys of its own for it, whose choice is kept.
+        ctx.options_mut(|options| options.zoom_with_keyboard = false);
+        ctx.set_zoom_factor(self.kept.scale);
+    }
+
     fn select_beside(&mut self, by: isize) {
         let workbench = &mut self.workbench;
         let selected = workbench.pipelines.selected().to_owned();
@@ -372,8 +475,13 @@ struct Panels<'a> {
 
 impl egui_tiles::Behavior<Panel> for Panels<'_> {
     fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, panel: &mut Panel) -> UiResponse {
-        if *panel == Panel::Viewport {
-            panels::viewport::show(self.editor, ui, self.now);
+        let viewport = match panel {
+            Panel::Viewport => Some(Viewport::First),
+            Panel::Second => Some(Viewport::Second),
+            _ => None,
+        };
+        if let Some(viewport) = viewport {
+            panels::viewport::show(self.editor, ui, self.now, viewport);
             return UiResponse::None;
         }
         let fill = ui.visuals().panel_fill;
@@ -401,7 +509,8 @@ impl egui_tiles::Behavior<Panel> for Panels<'_> {
             Panel::Compare => panels::compare::show(self.editor, ui),
             Panel::Notebook => panels::notebook::show(self.editor, ui),
             Panel::Code => panels::code::show(self.editor, ui),
-            Panel::Viewport => {}
+            Panel::Lesson => panels::lesson::show(self.editor, ui),
+            Panel::Viewport | Panel::Second => {}
         }
         UiResponse::None
     }

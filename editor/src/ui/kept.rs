@@ -7,16 +7,33 @@ use std::path::PathBuf;
 use lightbench::assets::files::write_atomic;
 use serde_json::{Map, Value};
 
+use super::arrangement::Arrangement;
 use crate::ui::messages::say;
 
 /// Lines of the console that are kept.
 const MOST_LINES: usize = 200;
 
+/// The name under which the arrangement of the window is kept.
+const ARRANGEMENT: &str = "arrangement";
+
 /// Scenes that are kept.
 const MOST_SCENES: usize = 8;
 
+/// The least and the greatest size of text and widgets.
+const SCALES: (f32, f32) = (0.6, 3.0);
+
+/// What is kept of lessons.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KeptLessons {
+    /// The language, by its code.
+    pub language: String,
+    /// The lesson that is open, by its name; may be empty.
+    pub open: String,
+    /// The student for whom one was begun last; may be empty.
+    pub student: String,
+}
+
 /// What is kept, and where.
-#[derive(Debug, Default)]
 pub struct Kept {
     path: Option<PathBuf>,
     /// Whether there was no file yet: the editor starts for the first time.
@@ -27,7 +44,15 @@ pub struct Kept {
     pub scenes: Vec<String>,
     /// The pipelines of number keys from 1, where somebody gave a key to one.
     pub favourites: BTreeMap<usize, String>,
-    /// What other versions of the program have written.
+    /// What is kept of lessons.
+    pub lessons: KeptLessons,
+    /// Whether the window is dark, where somebody chose that.
+    pub dark: Option<bool>,
+    /// How large text and widgets are, to what the system says: 1 as it says.
+    pub scale: f32,
+    /// How the window is arranged.
+    pub arrangement: Option<Arrangement>,
+    /// What other versions of the program have written, and what is not read anew.
     others: Map<String, Value>,
 }
 
@@ -76,12 +101,33 @@ impl Kept {
                 .collect(),
             _ => BTreeMap::new(),
         };
+        let lessons = match others.remove("lessons") {
+            Some(Value::Object(map)) => {
+                let text = |name: &str| {
+                    let text = map.get(name).and_then(Value::as_str);
+                    text.unwrap_or_default().to_owned()
+                };
+                KeptLessons {
+                    language: text("language"),
+                    open: text("open"),
+                    student: text("student"),
+                }
+            }
+            _ => KeptLessons::default(),
+        };
+        let arrangement = others.get(ARRANGEMENT).and_then(Arrangement::read);
+        let dark = others.remove("dark").and_then(|dark| dark.as_bool());
+        let scale = others.remove("scale").and_then(|scale| scale.as_f64());
         Self {
+            dark,
+            scale: (scale.unwrap_or(1.0) as f32).clamp(SCALES.0, SCALES.1),
             is_new: path.as_ref().is_some_and(|path| !path.exists()),
             path,
             console,
             scenes,
             favourites,
+            lessons,
+            arrangement,
             others,
         }
     }
@@ -89,6 +135,11 @@ impl Kept {
     /// The folder of texts that are not saved, beside the file.
     pub fn unsaved_folder(&self) -> Option<PathBuf> {
         Some(self.path.as_ref()?.parent()?.join("unsaved"))
+    }
+
+    /// The folder of what somebody works on, beside the file.
+    pub fn recovery_folder(&self) -> Option<PathBuf> {
+        Some(self.path.as_ref()?.parent()?.join("recovery"))
     }
 
     /// Keeps a line of the console.
@@ -129,6 +180,57 @@ impl Kept {
         self.write()
     }
 
+    /// Keeps what is open of lessons.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. It is there until the program ends.
+    pub fn remember_lessons(&mut self, lessons: KeptLessons) -> Result<(), String> {
+        if self.lessons == lessons {
+            return Ok(());
+        }
+        self.lessons = lessons;
+        self.write()
+    }
+
+    /// Keeps whether the window is dark.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The choice is there until the program ends.
+    pub fn choose_dark(&mut self, dark: bool) -> Result<(), String> {
+        self.dark = Some(dark);
+        self.write()
+    }
+
+    /// Makes text and widgets larger by a factor, or smaller, within bounds.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The size is there until the program ends.
+    pub fn scale_by(&mut self, factor: f32) -> Result<(), String> {
+        self.scale = (self.scale * factor).clamp(SCALES.0, SCALES.1);
+        self.write()
+    }
+
+    /// Gives text and widgets the size that the system says.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written.
+    pub fn reset_scale(&mut self) -> Result<(), String> {
+        self.scale = 1.0;
+        self.write()
+    }
+
+    /// Keeps how the window is arranged.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. It holds until the program ends.
+    pub fn arrange(&mut self, arrangement: Arrangement) -> Result<(), String> {
+        if let Some(value) = arrangement.to_value() {
+            self.others.insert(ARRANGEMENT.to_owned(), value);
+        }
+        self.arrangement = Some(arrangement);
+        self.write()
+    }
+
     fn write(&self) -> Result<(), String> {
         let Some(path) = &self.path else {
             return Ok(());
@@ -136,10 +238,29 @@ impl Kept {
         let mut all = self.others.clone();
         all.insert("console".to_owned(), self.console.clone().into());
         all.insert("scenes".to_owned(), self.scenes.clone().into());
+        if let Some(dark) = self.dark {
+            all.insert("dark".to_owned(), dark.into());
+        }
+        // As text has it: 1.1 and not 1.10000002384.
+        let scale = (f64::from(self.scale) * 1000.0).round() / 1000.0;
+        all.insert("scale".to_owned(), scale.into());
         if !self.favourites.is_empty() {
             let favourites = self.favourites.iter();
             let favourites = favourites.map(|(key, name)| (key.to_string(), name.clone().into()));
             all.insert("favourites".to_owned(), Value::Object(favourites.collect()));
+        }
+        if self.lessons != KeptLessons::default() {
+            let KeptLessons {
+                language,
+                open,
+                student,
+            } = &self.lessons;
+            let lessons = [("language", language), ("open", open), ("student", student)];
+            let lessons = lessons.map(|(name, text)| (name.to_owned(), text.clone().into()));
+            all.insert(
+                "lessons".to_owned(),
+                Value::Object(lessons.into_iter().collect()),
+            );
         }
         let text = format!("{:#}\n", Value::Object(all));
         let failed = |error: &dyn std::fmt::Display| {
@@ -211,6 +332,22 @@ mod tests {
         }
         assert_eq!(kept.scenes.len(), MOST_SCENES);
         assert_eq!(kept.scenes[0], "19");
+    }
+
+    #[test]
+    fn the_open_lesson_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("editor.json");
+        let lessons = KeptLessons {
+            language: "es".to_owned(),
+            open: "01-a".to_owned(),
+            student: "ana \"x\"".to_owned(),
+        };
+        let mut kept = Kept::read(Some(path.clone()));
+        kept.remember_lessons(lessons.clone()).unwrap();
+        assert_eq!(Kept::read(Some(path.clone())).lessons, lessons);
+        std::fs::write(&path, "{\"lessons\": {\"open\": 3}}").unwrap();
+        assert_eq!(Kept::read(Some(path)).lessons, KeptLessons::default());
     }
 
     #[test]

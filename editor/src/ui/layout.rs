@@ -1,14 +1,20 @@
 //! Which panels there are and how they lie.
 
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
+use serde::{Deserialize, Serialize};
 
 use crate::ui::messages::say;
 
-/// A panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use super::workbench::viewports::Viewport;
+
+/// A panel. Its name in the file of settings is that of the variant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Panel {
     /// The picture.
     Viewport,
+    /// Another one, of the same world.
+    Second,
     /// Any target of any pass.
     Targets,
     /// What each pass does to a pixel.
@@ -45,13 +51,41 @@ pub enum Panel {
     Notebook,
     /// Scripts and shaders.
     Code,
+    /// A lesson: its text, its tasks and what a check found.
+    Lesson,
 }
 
 impl Panel {
+    /// All of them.
+    pub const ALL: [Self; 21] = [
+        Self::Viewport,
+        Self::Second,
+        Self::Targets,
+        Self::Pixel,
+        Self::Passes,
+        Self::Pipeline,
+        Self::Pipelines,
+        Self::Scene,
+        Self::Entities,
+        Self::Materials,
+        Self::Assets,
+        Self::Environment,
+        Self::Log,
+        Self::Console,
+        Self::Actions,
+        Self::Plots,
+        Self::History,
+        Self::Compare,
+        Self::Notebook,
+        Self::Code,
+        Self::Lesson,
+    ];
+
     /// The words on its tab.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Viewport => say!("layout.viewport"),
+            Self::Viewport => Viewport::First.title(),
+            Self::Second => Viewport::Second.title(),
             Self::Targets => say!("layout.targets"),
             Self::Pixel => say!("layout.pixel"),
             Self::Passes => say!("layout.passes"),
@@ -70,6 +104,7 @@ impl Panel {
             Self::Compare => say!("layout.compare"),
             Self::Notebook => say!("layout.notebook"),
             Self::Code => say!("layout.code"),
+            Self::Lesson => say!("lesson.panel"),
         }
     }
 }
@@ -84,8 +119,10 @@ pub fn first() -> Tree<Panel> {
             .collect();
         tiles.insert_tab_tile(panes)
     };
+    let lesson = tabs(&[Panel::Lesson]);
     let code = tabs(&[Panel::Code]);
     let viewport = tabs(&[Panel::Viewport]);
+    let second = tabs(&[Panel::Second]);
     let log = tabs(&[
         Panel::Log,
         Panel::Console,
@@ -109,10 +146,15 @@ pub fn first() -> Tree<Panel> {
         Panel::Assets,
         Panel::Environment,
     ]);
+    let viewports = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(viewport, 0.5), (second, 0.5)],
+    );
     let left = split(
         &mut tiles,
         LinearDir::Vertical,
-        &[(viewport, 0.76), (log, 0.24)],
+        &[(viewports, 0.76), (log, 0.24)],
     );
     let right = split(
         &mut tiles,
@@ -122,12 +164,40 @@ pub fn first() -> Tree<Panel> {
     let root = split(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(code, 0.5), (left, 0.62), (right, 0.38)],
+        &[(lesson, 0.5), (code, 0.5), (left, 0.62), (right, 0.38)],
     );
     let mut tree = Tree::new(egui::Id::unique("panels"), root, tiles);
-    // It takes its place when a file is opened.
+    // They take their places when a lesson or a file is opened.
+    set_visible(&mut tree, Panel::Lesson, false);
     set_visible(&mut tree, Panel::Code, false);
+    set_visible(&mut tree, Panel::Second, false);
     tree
+}
+
+/// All panels at once, beside each other, so that none hides another.
+pub fn all() -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let panes = Panel::ALL.map(|panel| tiles.insert_pane(panel));
+    let root = tiles.insert_grid_tile(panes.to_vec());
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// The picture at the left and one panel at its right.
+pub fn beside(panel: Panel) -> Tree<Panel> {
+    let mut tiles = Tiles::default();
+    let picture = tiles.insert_pane(Panel::Viewport);
+    let pane = tiles.insert_pane(panel);
+    let root = split(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(picture, 0.5), (pane, 0.5)],
+    );
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// Where a panel was drawn in the last frame, in points.
+pub fn rect(tree: &Tree<Panel>, panel: Panel) -> Option<egui::Rect> {
+    tree.tiles.rect(tree.tiles.find_pane(&panel)?)
 }
 
 fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
@@ -159,4 +229,23 @@ pub fn set_visible(tree: &mut Tree<Panel>, panel: Panel, visible: bool) {
             tree.make_active(|other, _| other == id);
         }
     }
+}
+
+/// Puts a panel that is not there into the tree, hidden. `None` where the tree has no place for it.
+pub fn add_hidden(tree: &mut Tree<Panel>, panel: Panel) -> Option<()> {
+    let root = tree.root()?;
+    let pane = tree.tiles.insert_pane(panel);
+    let tabs = tree.tiles.insert_tab_tile(vec![pane]);
+    match tree.tiles.get_mut(root)? {
+        Tile::Container(container) => container.add_child(tabs),
+        Tile::Pane(_) => {
+            let both = Linear::new(LinearDir::Horizontal, vec![root, tabs]);
+            let both = tree
+                .tiles
+                .insert_new(Tile::Container(Container::Linear(both)));
+            tree.root = Some(both);
+        }
+    }
+    set_visible(tree, panel, false);
+    Some(())
 }

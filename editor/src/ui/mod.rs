@@ -4,6 +4,7 @@
 //! it what a person wants; [`run`] puts the editor into a window that owns its device.
 
 pub mod actions;
+pub mod arrangement;
 pub mod bench;
 pub mod code;
 mod coding;
@@ -11,12 +12,18 @@ pub mod compare_actions;
 pub mod dialogs;
 pub mod editor;
 pub mod gallery;
+mod keeping;
 pub mod kept;
 pub mod layout;
 pub mod lens;
+pub mod lesson;
+mod lessoning;
+pub mod menus;
 pub(crate) mod messages;
 mod panels;
 mod pictures;
+pub mod recovery;
+mod runs;
 mod screen;
 mod surface;
 pub mod theme;

@@ -24,13 +24,17 @@ pub enum Place {
     Pass,
     /// Lines over the picture.
     Lines,
+    /// The second viewport.
+    Second,
+    /// Lines over its picture.
+    SecondLines,
 }
 
 /// Hands textures to the painter that draws the widgets.
 pub struct Screen {
     device: wgpu::Device,
     painter: Arc<RwLock<egui_wgpu::Renderer>>,
-    shown: [Option<Shown>; 4],
+    shown: [Option<Shown>; 6],
 }
 
 impl Screen {
@@ -39,7 +43,7 @@ impl Screen {
         Self {
             device,
             painter,
-            shown: [const { None }; 4],
+            shown: [const { None }; 6],
         }
     }
 

@@ -11,6 +11,8 @@ pub struct Palette {
     pub gpu: Color32,
     /// Time on the CPU.
     pub cpu: Color32,
+    /// Text that matters less.
+    pub weak: Color32,
     /// Something is not as asked.
     pub warning: Color32,
     /// Something did not work.
@@ -35,6 +37,7 @@ const DARK: Palette = Palette {
     accent: Color32::from_rgb(86, 156, 214),
     gpu: Color32::from_rgb(86, 156, 214),
     cpu: Color32::from_rgb(222, 157, 62),
+    weak: Color32::from_gray(140),
     warning: Color32::from_rgb(230, 180, 80),
     error: Color32::from_rgb(244, 112, 103),
     error_fill: Color32::from_rgba_premultiplied(46, 18, 18, 240),
@@ -45,7 +48,8 @@ const DARK: Palette = Palette {
 const LIGHT: Palette = Palette {
     accent: Color32::from_rgb(0, 98, 166),
     gpu: Color32::from_rgb(0, 98, 166),
-    cpu: Color32::from_rgb(176, 104, 0),
+    cpu: Color32::from_rgb(138, 80, 0),
+    weak: Color32::from_gray(95),
     warning: Color32::from_rgb(148, 96, 0),
     error: Color32::from_rgb(180, 30, 30),
     error_fill: Color32::from_rgba_premultiplied(250, 232, 230, 245),
@@ -102,6 +106,7 @@ fn light() -> Visuals {
 }
 
 fn finish(mut visuals: Visuals, palette: Palette) -> Visuals {
+    visuals.weak_text_color = Some(palette.weak);
     let corner = CornerRadius::same(3);
     for widget in [
         &mut visuals.widgets.noninteractive,
@@ -127,4 +132,68 @@ fn finish(mut visuals: Visuals, palette: Palette) -> Visuals {
     visuals.error_fg_color = palette.error;
     visuals.slider_trailing_fill = true;
     visuals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance (WCAG 2.2, section 8, from the curve of sRGB).
+    fn luminance(color: Color32) -> f64 {
+        let [red, green, blue] = [color.r(), color.g(), color.b()].map(|part| {
+            let value = f64::from(part) / 255.0;
+            if value <= 0.04045 {
+                value / 12.92
+            } else {
+                ((value + 0.055) / 1.055).powf(2.4)
+            }
+        });
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn contrast_is_that_of_the_guidelines_own_examples() {
+        assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 1e-9);
+        // The lightest grey on white that passes: #767676.
+        assert!((contrast(Color32::from_gray(0x76), Color32::WHITE) - 4.54).abs() < 0.005);
+    }
+
+    /// WCAG 2.2, success criterion 1.4.3: text has a contrast of at least 4.5 to what is behind it.
+    #[test]
+    fn text_can_be_read_in_both_themes() {
+        for (visuals, palette) in [(dark(), DARK), (light(), LIGHT)] {
+            let behind = [
+                visuals.panel_fill,
+                visuals.window_fill,
+                visuals.extreme_bg_color,
+                visuals.faint_bg_color,
+            ];
+            let texts = [
+                ("text", visuals.text_color()),
+                ("weak text", visuals.weak_text_color()),
+                ("links", visuals.hyperlink_color),
+                ("accent", palette.accent),
+                ("GPU", palette.gpu),
+                ("CPU", palette.cpu),
+                ("warnings", palette.warning),
+                ("errors", palette.error),
+            ];
+            for (what, color) in texts {
+                for fill in behind {
+                    // Weak text lets some of what is behind it through.
+                    let ratio = contrast(fill.blend(color), fill);
+                    assert!(ratio >= 4.5, "{what} on {fill:?}: {ratio:.2}");
+                }
+            }
+            assert!(contrast(palette.note_text, palette.note_fill.to_opaque()) >= 4.5);
+            assert!(contrast(palette.error, palette.error_fill.to_opaque()) >= 4.5);
+            let chosen = visuals.selection;
+            assert!(contrast(chosen.stroke.color, chosen.bg_fill) >= 4.5);
+        }
+    }
 }

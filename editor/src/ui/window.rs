@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
+use egui_winit::accesskit_winit;
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
 use winit::event::{StartCause, WindowEvent};
@@ -21,14 +22,23 @@ use crate::ui::messages::say;
 const MAX_LOSSES: u32 = 3;
 
 /// Sent from other threads.
-#[derive(Clone, Copy, Debug)]
-struct Repaint {
-    at: Instant,
+#[derive(Debug)]
+enum Sent {
+    /// Something is to be drawn again.
+    Repaint { at: Instant },
+    /// From a screen reader, or another program that reads widgets and acts on them.
+    Access(accesskit_winit::Event),
+}
+
+impl From<accesskit_winit::Event> for Sent {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Self::Access(event)
+    }
 }
 
 /// Opens the window and runs until it is closed.
 pub(super) fn run(options: EditorOptions) -> anyhow::Result<()> {
-    let events = EventLoop::<Repaint>::with_user_event()
+    let events = EventLoop::<Sent>::with_user_event()
         .build()
         .context(say!("window.no_window_can_be_opened_here"))?;
     let mut program = Program {
@@ -45,7 +55,7 @@ pub(super) fn run(options: EditorOptions) -> anyhow::Result<()> {
 }
 
 struct Program {
-    proxy: EventLoopProxy<Repaint>,
+    proxy: EventLoopProxy<Sent>,
     /// Taken when the window opens.
     options: Option<EditorOptions>,
     running: Option<Running>,
@@ -72,7 +82,9 @@ impl Program {
         let attributes = Window::default_attributes()
             .with_title(say!("window.lightbench"))
             .with_inner_size(LogicalSize::new(1440.0, 900.0))
-            .with_min_inner_size(LogicalSize::new(640.0, 400.0));
+            .with_min_inner_size(LogicalSize::new(640.0, 400.0))
+            // Shown when it can be read by other programs, which must be so from the beginning.
+            .with_visible(false);
         let window = Arc::new(
             events
                 .create_window(attributes)
@@ -83,7 +95,7 @@ impl Program {
         let ctx = self.context();
         let wake_ctx = ctx.clone();
         let wake = Arc::new(move || wake_ctx.request_repaint());
-        let input = egui_winit::State::new(
+        let mut input = egui_winit::State::new(
             ctx,
             egui::ViewportId::ROOT,
             &window,
@@ -91,6 +103,8 @@ impl Program {
             window.theme(),
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
+        input.init_accesskit(events, &window, self.proxy.clone());
+        window.set_visible(true);
         let kept = Kept::read(options.kept.clone());
         let workbench = Workbench::new(gpu, options, wake);
         let mut editor = Editor::new(workbench, surface.painter(), kept);
@@ -115,7 +129,7 @@ impl Program {
         ctx.set_request_repaint_callback(move |info| {
             let at = Instant::now() + info.delay.min(Duration::from_secs(3600));
             // The loop has ended: there is nothing to repaint.
-            let _ = proxy.send_event(Repaint { at });
+            let _ = proxy.send_event(Sent::Repaint { at });
         });
         ctx
     }
@@ -159,6 +173,11 @@ impl Program {
         // A new context sends its fonts to the new device; what it remembers stays.
         let memory = running.input.egui_ctx().memory(Clone::clone);
         ctx.memory_mut(|new| *new = memory);
+        // Whoever reads the window goes on with the widgets of the new context.
+        let reader = running.input.accesskit.take();
+        if reader.is_some() {
+            ctx.enable_accesskit();
+        }
         running.input = egui_winit::State::new(
             ctx,
             egui::ViewportId::ROOT,
@@ -167,6 +186,7 @@ impl Program {
             running.window.theme(),
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
+        running.input.accesskit = reader;
         running.editor.move_to(gpu, surface.painter());
         running.surface = surface;
         running.window.request_redraw();
@@ -179,6 +199,19 @@ impl Program {
 }
 
 impl Running {
+    /// What a program asks that reads the window: a tree of the widgets, or to act on one.
+    fn access(&mut self, event: accesskit_winit::WindowEvent) {
+        let ctx = self.input.egui_ctx();
+        match event {
+            accesskit_winit::WindowEvent::InitialTreeRequested => ctx.enable_accesskit(),
+            accesskit_winit::WindowEvent::ActionRequested(request) => {
+                self.input.on_accesskit_action_request(request);
+            }
+            accesskit_winit::WindowEvent::AccessibilityDeactivated => ctx.disable_accesskit(),
+        }
+        self.window.request_redraw();
+    }
+
     /// One frame: input, widgets, paint.
     fn frame(&mut self) -> anyhow::Result<()> {
         let ctx = self.input.egui_ctx().clone();
@@ -200,7 +233,7 @@ impl Running {
     }
 }
 
-impl ApplicationHandler<Repaint> for Program {
+impl ApplicationHandler<Sent> for Program {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if self.running.is_none()
             && let Err(error) = self.open(events)
@@ -210,8 +243,15 @@ impl ApplicationHandler<Repaint> for Program {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, repaint: Repaint) {
-        self.schedule(repaint.at);
+    fn user_event(&mut self, _: &ActiveEventLoop, sent: Sent) {
+        match sent {
+            Sent::Repaint { at } => self.schedule(at),
+            Sent::Access(event) => {
+                if let Some(running) = &mut self.running {
+                    running.access(event.window_event);
+                }
+            }
+        }
     }
 
     fn new_events(&mut self, _: &ActiveEventLoop, _: StartCause) {

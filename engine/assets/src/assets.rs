@@ -118,7 +118,7 @@ impl<T> Table<T> {
 }
 
 /// How many items [`Assets`] have of each kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Default, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssetCounts {
     /// Meshes.
     pub meshes: usize,

@@ -50,6 +50,7 @@ pub mod report;
 pub mod shown;
 pub mod statistics;
 pub mod study;
+pub mod svg;
 pub mod tracer;
 
 pub use error::LabError;

@@ -1,5 +1,6 @@
 //! Pictures as plain arrays of pixels, in the two spaces that metrics know.
 
+use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
@@ -154,25 +155,40 @@ impl Picture {
             path: path.to_path_buf(),
             reason,
         };
-        let mut reader = ImageReader::open(path)
-            .and_then(ImageReader::with_guessed_format)
-            .map_err(|error| fail(error.to_string()))?;
+        let reader = ImageReader::open(path).map_err(|error| fail(error.to_string()))?;
+        Self::decode(reader).map_err(fail)
+    }
+
+    /// Reads the bytes of a picture file; `path` is for the message where they are none.
+    ///
+    /// # Errors
+    /// As [`Picture::open`].
+    pub fn read(path: &Path, bytes: &[u8]) -> Result<Self, LabError> {
+        let fail = |reason: String| LabError::PictureFile {
+            path: path.to_path_buf(),
+            reason,
+        };
+        Self::decode(ImageReader::new(Cursor::new(bytes))).map_err(fail)
+    }
+
+    fn decode(reader: ImageReader<impl BufRead + Seek>) -> Result<Self, String> {
+        let mut reader = reader
+            .with_guessed_format()
+            .map_err(|error| error.to_string())?;
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_FILE_SIDE);
         limits.max_image_height = Some(MAX_FILE_SIDE);
         limits.max_alloc = Some(MAX_FILE_BYTES);
         reader.limits(limits);
-        let decoder = reader
-            .into_decoder()
-            .map_err(|error| fail(error.to_string()))?;
+        let decoder = reader.into_decoder().map_err(|error| error.to_string())?;
         let (width, height) = decoder.dimensions();
         if width.max(height) > MAX_FILE_SIDE {
-            return Err(fail(format!(
+            return Err(format!(
                 "it claims {width} × {height} pixels; at most {MAX_FILE_SIDE} on a side are read"
-            )));
+            ));
         }
-        let image = DynamicImage::from_decoder(decoder).map_err(|error| fail(error.to_string()))?;
-        Self::from_dynamic(image).map_err(|error| fail(error.to_string()))
+        let image = DynamicImage::from_decoder(decoder).map_err(|error| error.to_string())?;
+        Self::from_dynamic(image).map_err(|error| error.to_string())
     }
 
     fn from_dynamic(image: DynamicImage) -> Result<Self, LabError> {
@@ -270,6 +286,11 @@ mod tests {
             });
             let path = folder.path().join("a.bin");
             std::fs::write(&path, a.to_png().unwrap()).unwrap();
+            let bytes = std::fs::read(&path).unwrap();
+            assert_eq!(
+                Picture::read(&path, &bytes).unwrap(),
+                Picture::Ldr(a.clone())
+            );
             assert_eq!(Picture::open(&path).unwrap(), Picture::Ldr(a));
         }
     }

@@ -23,16 +23,36 @@ pub struct CompiledPass {
     pub sources: Vec<(u32, Source)>,
     /// The layout of group 1.
     pub target_layout: Option<wgpu::BindGroupLayout>,
-    /// Group 1, for the current targets.
-    pub target_group: Option<wgpu::BindGroup>,
     /// Group 2.
     pub parameters: Option<ParameterBlock>,
-    /// Views of what it draws to, for the current targets.
+    /// What depends on the current targets.
+    pub bound: Bound,
+    /// Which of the frame's lists of objects or lights the pass draws.
+    pub list: Option<usize>,
+}
+
+/// What of a pass depends on the targets.
+#[derive(Debug)]
+pub struct Bound {
+    /// Group 1.
+    pub target_group: Option<wgpu::BindGroup>,
+    /// Views of what the pass draws to.
     pub attachments: Attachments,
     /// Workgroups of a compute pass along x, y and z.
     pub workgroups: [u32; 3],
-    /// Which of the frame's lists of objects or lights the pass draws.
-    pub list: Option<usize>,
+    /// For each level of a `mips` pass but the first: the view to draw to and the group to read from.
+    pub levels: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
+}
+
+impl Default for Bound {
+    fn default() -> Self {
+        Self {
+            target_group: None,
+            attachments: Attachments::default(),
+            workgroups: [1; 3],
+            levels: Vec::new(),
+        }
+    }
 }
 
 impl CompiledPass {
@@ -48,10 +68,8 @@ impl CompiledPass {
             for_other_models: None,
             sources,
             target_layout,
-            target_group: None,
             parameters,
-            attachments: Attachments::default(),
-            workgroups: [1; 3],
+            bound: Bound::default(),
             list: None,
         }
     }
@@ -72,8 +90,8 @@ impl CompiledPass {
         targets: &Targets,
         engine: EngineBuffers<'_>,
     ) {
-        self.attachments = Attachments::new(desc, targets);
-        self.workgroups = workgroups(desc, &self.pipelines, targets);
+        self.bound.attachments = Attachments::new(desc, targets);
+        self.bound.workgroups = workgroups(desc, &self.pipelines, targets);
         self.bind_levels(gpu, desc, targets);
         let Some(layout) = &self.target_layout else {
             return;
@@ -106,7 +124,7 @@ impl CompiledPass {
                 })
             })
             .collect();
-        self.target_group = Some(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        self.bound.target_group = Some(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("targets"),
             layout,
             entries: &entries,
@@ -115,12 +133,13 @@ impl CompiledPass {
 
     /// The views and groups of a `mips` pass.
     fn bind_levels(&mut self, gpu: &Gpu, desc: &PassDesc, targets: &Targets) {
-        let (PassPipelines::Mips { layout, levels, .. }, PassKind::Mips { target, .. }) =
-            (&mut self.pipelines, &desc.kind)
+        let levels = &mut self.bound.levels;
+        levels.clear();
+        let (PassPipelines::Mips { layout, .. }, PassKind::Mips { target, .. }) =
+            (&self.pipelines, &desc.kind)
         else {
             return;
         };
-        levels.clear();
         let Some(target) = targets.get(&target.target) else {
             return;
         };

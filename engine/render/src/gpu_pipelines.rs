@@ -90,8 +90,6 @@ pub enum PassPipelines {
         pipeline: DrawPipeline,
         /// Layout of the group that holds the larger level.
         layout: wgpu::BindGroupLayout,
-        /// For each level but the first: the view to draw to and the group to read from.
-        levels: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
     },
 }
 

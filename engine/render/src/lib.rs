@@ -36,6 +36,7 @@ pub mod reflection;
 mod renderer;
 mod room;
 pub mod scene;
+pub mod series;
 pub mod shader;
 pub mod statistics;
 pub mod targets;

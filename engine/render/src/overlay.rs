@@ -13,6 +13,7 @@ use crate::layout::SceneLayout;
 use crate::problem::{Place, Problem};
 use crate::reflection::{FRAGMENT_ENTRY, VERTEX_ENTRY};
 use crate::scene::{MeshBuffers, MeshPool};
+use crate::series::FIRST_SERIES;
 use crate::shader::ShaderComposer;
 
 /// The folder of the overlay's shader.
@@ -103,13 +104,20 @@ struct Pictures {
     depth: wgpu::TextureView,
 }
 
+/// The lines of one series of pictures.
+#[derive(Default)]
+struct Course {
+    asked: Option<(Files, Lines)>,
+    pictures: Option<Pictures>,
+}
+
 /// Draws lines over pictures.
 pub struct Overlay {
     gpu: Gpu,
     scene: wgpu::BindGroupLayout,
-    asked: Option<(Files, Lines)>,
+    /// By series; there is always the first.
+    courses: Vec<Course>,
     built: Option<Built>,
-    pictures: Option<Pictures>,
     /// Rows that hide lines and rows that have them, each with the indices of its mesh.
     solid: Vec<(u32, u32)>,
     lined: Vec<(u32, u32)>,
@@ -122,9 +130,8 @@ impl Overlay {
         Self {
             gpu: gpu.clone(),
             scene: layout.group.clone(),
-            asked: None,
+            courses: vec![Course::default()],
             built: None,
-            pictures: None,
             solid: Vec::new(),
             lined: Vec::new(),
             problem: None,
@@ -133,11 +140,20 @@ impl Overlay {
 
     /// Chooses the lines of the next frames; `None` for none. The shader comes from `files`.
     pub fn ask(&mut self, files: &Files, lines: Option<Lines>) {
+        self.ask_in(FIRST_SERIES, files, lines);
+    }
+
+    /// The same for the frames of another series: see [`crate::series`].
+    pub fn ask_in(&mut self, series: usize, files: &Files, lines: Option<Lines>) {
         let lines = lines.filter(|lines| lines.edges || lines.normals);
-        if lines.is_none() {
-            self.pictures = None;
+        if self.courses.len() <= series {
+            self.courses.resize_with(series + 1, Course::default);
         }
-        self.asked = lines.map(|lines| (files.clone(), lines));
+        let course = &mut self.courses[series];
+        if lines.is_none() {
+            course.pictures = None;
+        }
+        course.asked = lines.map(|lines| (files.clone(), lines));
     }
 
     /// Reads the shader again where it is needed next.
@@ -148,7 +164,13 @@ impl Overlay {
     /// The lines of the last frame, of its size: eight bits a channel, sRGB-coded, colours multiplied by
     /// alpha.
     pub fn picture(&self) -> Option<&wgpu::Texture> {
-        self.pictures.as_ref().map(|pictures| &pictures.color)
+        self.picture_of(FIRST_SERIES)
+    }
+
+    /// The same of the last frame of a series.
+    pub fn picture_of(&self, series: usize) -> Option<&wgpu::Texture> {
+        let pictures = self.courses.get(series)?.pictures.as_ref();
+        pictures.map(|pictures| &pictures.color)
     }
 
     /// A mistake in the shader, or what the device can't hold, once.
@@ -157,8 +179,15 @@ impl Overlay {
     }
 
     /// Takes note of what the next frame shows: rows that the camera sees.
-    pub(crate) fn gather(&mut self, world: &World, meshes: &MeshPool, visible: &[u32]) {
-        let Some((_, lines)) = &self.asked else {
+    pub(crate) fn gather(
+        &mut self,
+        series: usize,
+        world: &World,
+        meshes: &MeshPool,
+        visible: &[u32],
+    ) {
+        let asked = self.courses.get(series).and_then(|it| it.asked.as_ref());
+        let Some((_, lines)) = asked else {
             return;
         };
         let renderers = world.columns::<MeshRenderer>();
@@ -181,21 +210,32 @@ impl Overlay {
     /// Draws the lines of one frame.
     pub(crate) fn draw(
         &mut self,
+        series: usize,
         buffers: MeshBuffers<'_>,
         scene: &wgpu::BindGroup,
         size: (u32, u32),
         encoder: &mut wgpu::CommandEncoder,
     ) {
-        let Some((files, lines)) = self.asked.take() else {
+        let Some(course) = self.courses.get_mut(series) else {
             return;
         };
-        match self.try_draw(&files, &lines, buffers, scene, size, encoder) {
-            Ok(()) => self.asked = Some((files, lines)),
-            Err(problem) => {
-                // What can't be drawn is not asked for again.
-                self.pictures = None;
-                self.problem = Some(problem);
+        let Course { asked, pictures } = std::mem::take(course);
+        let Some((files, lines)) = asked else {
+            return;
+        };
+        let pictures = match pictures {
+            Some(pictures) if pictures.size() == size => pictures,
+            _ => Pictures::new(&self.gpu, size),
+        };
+        match self.try_draw(&files, &lines, &pictures, buffers, scene, encoder) {
+            Ok(()) => {
+                self.courses[series] = Course {
+                    asked: Some((files, lines)),
+                    pictures: Some(pictures),
+                };
             }
+            // What can't be drawn is not asked for again.
+            Err(problem) => self.problem = Some(problem),
         }
     }
 
@@ -203,9 +243,9 @@ impl Overlay {
         &mut self,
         files: &Files,
         lines: &Lines,
+        pictures: &Pictures,
         buffers: MeshBuffers<'_>,
         scene: &wgpu::BindGroup,
-        size: (u32, u32),
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), Problem> {
         let meshes = [buffers.positions, buffers.attributes, buffers.indices];
@@ -222,12 +262,6 @@ impl Overlay {
             None => build(&self.gpu, &self.scene, files)?,
         };
         let built = self.built.insert(built);
-        let pictures = match self.pictures.take() {
-            Some(pictures) if (pictures.color.width(), pictures.color.height()) == size => pictures,
-            _ => Pictures::new(&self.gpu, size),
-        };
-        let pictures = self.pictures.insert(pictures);
-
         let groups = built.styles.each_ref().map(|style| {
             let [positions, attributes, indices] = meshes;
             let mut binding = 0..;
@@ -287,6 +321,10 @@ impl Overlay {
 }
 
 impl Pictures {
+    fn size(&self) -> (u32, u32) {
+        (self.color.width(), self.color.height())
+    }
+
     fn new(gpu: &Gpu, (width, height): (u32, u32)) -> Self {
         let texture = |format, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {

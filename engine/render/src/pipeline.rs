@@ -13,6 +13,7 @@ use crate::gpu::Gpu;
 use crate::life::Lives;
 use crate::queries::Measured;
 use crate::scene::ReplacedModels;
+use crate::series::{Continuity, FIRST_SERIES, Resting};
 use crate::targets::Targets;
 use crate::variant::Variants;
 
@@ -52,18 +53,11 @@ pub struct Pipeline {
     /// The views that its shadow passes draw, each once.
     pub(crate) shadow_lists: Vec<ShadowKey>,
     lives: Lives,
-    targets: Option<Targets>,
-    engine_revision: u64,
     share_textures: bool,
-    history_frames: u32,
-    /// What shaders saw as `frame_index`.
-    last_frame: Option<u32>,
-    /// Words that each buffer must have at least, as counters said.
-    grown: Vec<u64>,
-    /// Whether a buffer is smaller than that.
-    outgrown: bool,
-    /// The first of the frames that it drew without another pipeline between.
-    run_began: u32,
+    /// What it keeps of the series that it draws: the first one, but for the time of a frame.
+    series: Continuity,
+    /// The same of the others, in their order.
+    resting: Vec<Resting>,
     /// The pass that ends a frame, if not the last one.
     last_pass: Option<usize>,
 }
@@ -93,7 +87,8 @@ impl Pipeline {
             lives: Lives::of(&desc),
             models: desc.reflection_models(),
             told_models: ReplacedModels::default(),
-            grown: vec![0; desc.buffers.len()],
+            series: Continuity::new(desc.buffers.len()),
+            resting: Vec::new(),
             desc,
             declared,
             notes,
@@ -103,20 +98,34 @@ impl Pipeline {
             lists,
             light_lists,
             shadow_lists,
-            targets: None,
-            engine_revision: 0,
             share_textures: true,
-            history_frames: 0,
-            last_frame: None,
-            outgrown: false,
-            run_began: 0,
             last_pass: None,
         }
     }
 
     /// The targets of the last frame.
     pub fn targets(&self) -> Option<&Targets> {
-        self.targets.as_ref()
+        self.series.targets.as_ref()
+    }
+
+    /// The targets of the last frame of a series: see [`crate::series`].
+    pub fn targets_of(&self, series: usize) -> Option<&Targets> {
+        match series.checked_sub(1) {
+            None => self.targets(),
+            Some(other) => self.resting.get(other)?.continuity.targets.as_ref(),
+        }
+    }
+
+    /// Begins to draw another series than the first; once more ends it.
+    pub(crate) fn swap_series(&mut self, series: usize) {
+        let Some(other) = series.checked_sub(1) else {
+            return;
+        };
+        let (buffers, passes) = (self.desc.buffers.len(), self.passes.len());
+        while self.resting.len() <= other {
+            self.resting.push(Resting::new(buffers, passes));
+        }
+        self.resting[other].swap(&mut self.series, &mut self.passes);
     }
 
     /// The variants of meshes that it can draw.
@@ -149,7 +158,10 @@ impl Pipeline {
     pub fn keep_all_targets(&mut self, keep: bool) {
         if self.share_textures == keep {
             self.share_textures = !keep;
-            self.targets = None;
+            self.series.targets = None;
+            for resting in &mut self.resting {
+                resting.continuity.targets = None;
+            }
         }
     }
 
@@ -169,7 +181,7 @@ impl Pipeline {
     /// Frames whose results `history` targets hold; 0 in the first frame and after a change of
     /// size.
     pub fn history_frames(&self) -> u32 {
-        self.history_frames
+        self.series.history_frames
     }
 
     /// Takes over parameter values from a description of the same structure.
@@ -185,9 +197,25 @@ impl Pipeline {
     }
 
     /// Makes room where a counter asked for more words than its buffer has, and says whether it
-    /// did: then the frame should be drawn again.
+    /// did: then the frame should be drawn again. All that was measured must be of the first series.
     pub fn grow(&mut self, measured: &[Measured]) -> bool {
-        let Some(targets) = &self.targets else {
+        self.grow_in(FIRST_SERIES, measured)
+    }
+
+    /// The same for what was measured of another series.
+    pub fn grow_in(&mut self, series: usize, measured: &[Measured]) -> bool {
+        if measured.is_empty() {
+            return false;
+        }
+        self.swap_series(series);
+        let grew = self.grow_present(measured);
+        self.swap_series(series);
+        grew
+    }
+
+    fn grow_present(&mut self, measured: &[Measured]) -> bool {
+        let state = &mut self.series;
+        let Some(targets) = &state.targets else {
             return false;
         };
         let mut outgrown = false;
@@ -198,18 +226,18 @@ impl Pipeline {
             let counter = self.desc.counters.iter().position(|c| c.name == by.name);
             let wanted = counter.and_then(|counter| {
                 // Results of frames that another pipeline drew count something else.
-                let own = measured.iter().filter(|m| m.frame >= self.run_began);
+                let own = measured.iter().filter(|m| m.frame >= state.run_began);
                 let counts = own.filter_map(|m| m.counters.get(counter));
                 counts.max().copied()
             });
             let has = targets.buffer(&buffer.name).map_or(0, |b| b.size() / 4);
             if let Some(wanted) = wanted.map(u64::from).filter(|wanted| *wanted > has) {
                 // Half as much again, so that a scene that grows slowly does not do so each frame.
-                self.grown[index] = wanted + wanted / 2;
+                state.grown[index] = wanted + wanted / 2;
                 outgrown = true;
             }
         }
-        self.outgrown |= outgrown;
+        state.outgrown |= outgrown;
         outgrown
     }
 
@@ -221,16 +249,17 @@ impl Pipeline {
     /// Notes that a frame begins: its number in [`Measured::frame`] and what shaders see as
     /// `frame_index`. History lasts while frames follow each other; the same one may be drawn again.
     pub(crate) fn begin_frame(&mut self, serial: u32, index: u32) {
-        let followed = self
+        let state = &mut self.series;
+        let followed = state
             .last_frame
             .is_some_and(|last| last.wrapping_add(1) == index || last == index);
         if !followed {
-            self.history_frames = 0;
-            self.run_began = serial;
-        } else if self.last_frame != Some(index) {
-            self.history_frames = self.history_frames.saturating_add(1);
+            state.history_frames = 0;
+            state.run_began = serial;
+        } else if state.last_frame != Some(index) {
+            state.history_frames = state.history_frames.saturating_add(1);
         }
-        self.last_frame = Some(index);
+        state.last_frame = Some(index);
     }
 
     /// Makes targets, bindings and parameters ready for a frame of that size and that number of
@@ -246,15 +275,15 @@ impl Pipeline {
         let fits = |targets: &Targets| {
             targets.size == size && (lights <= targets.lights || !depends_on_lights)
         };
-        if let Some(targets) = &self.targets {
+        if let Some(targets) = self.targets() {
             self.shrink(targets.size, size);
         }
-        let fresh = self.targets.take().filter(fits);
-        let same_engine = self.engine_revision == engine.revision;
+        let fresh = self.series.targets.take().filter(fits);
+        let same_engine = self.series.engine_revision == engine.revision;
         if fresh.is_none() {
-            self.last_frame = None;
+            self.series.last_frame = None;
         }
-        let outgrown = std::mem::take(&mut self.outgrown);
+        let outgrown = std::mem::take(&mut self.series.outgrown);
         let rebind = fresh.is_none() || !same_engine || outgrown;
         let mut targets = fresh.unwrap_or_else(|| {
             let room = if depends_on_lights {
@@ -266,27 +295,27 @@ impl Pipeline {
                 .desc
                 .buffers
                 .iter()
-                .zip(&self.grown)
+                .zip(&self.series.grown)
                 .map(|(buffer, grown)| buffer.size.resolve(size, room).max(*grown))
                 .collect();
             let lives = self.share_textures.then_some(&self.lives);
             Targets::new(gpu, &self.desc, lives, size, room, &words)
         });
         if outgrown {
-            targets.grow_buffers(gpu, &self.desc, &self.grown);
+            targets.grow_buffers(gpu, &self.desc, &self.series.grown);
         }
         if rebind {
             for (desc, pass) in self.desc.passes.iter().zip(&mut self.passes) {
                 pass.bind(gpu, desc, &targets, engine);
             }
-            self.engine_revision = engine.revision;
+            self.series.engine_revision = engine.revision;
         }
         for pass in &mut self.passes {
             if let Some(parameters) = &mut pass.parameters {
                 parameters.upload(gpu, &self.desc);
             }
         }
-        self.targets.insert(targets)
+        self.series.targets.insert(targets)
     }
 
     /// What buffers have grown to for a larger picture, a smaller one does not need.
@@ -294,7 +323,7 @@ impl Pipeline {
         let pixels = |(width, height): (u32, u32)| u64::from(width) * u64::from(height);
         let (before, after) = (pixels(from), pixels(to));
         if after < before {
-            for words in &mut self.grown {
+            for words in &mut self.series.grown {
                 *words = (*words * after).div_ceil(before);
             }
         }
@@ -303,8 +332,20 @@ impl Pipeline {
     /// Gives back the memory of all targets and buffers, until the next frame that this pipeline
     /// draws. Its history is lost.
     pub fn release_targets(&mut self) {
-        self.targets = None;
-        self.last_frame = None;
+        self.series.release();
+        self.resting.iter_mut().for_each(Resting::release);
+    }
+
+    /// The same for one series alone.
+    pub fn release_series(&mut self, series: usize) {
+        match series.checked_sub(1) {
+            None => self.series.release(),
+            Some(other) => {
+                if let Some(resting) = self.resting.get_mut(other) {
+                    resting.release();
+                }
+            }
+        }
     }
 
     /// Whether a buffer or a dispatch is sized by the number of lights.

@@ -1,5 +1,6 @@
 //! The renderer: a device, a scene on it, and frames through pipelines.
 
+mod course;
 mod error;
 mod reading;
 
@@ -7,7 +8,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use glam::Mat4;
 use lightbench_assets::Assets;
 use lightbench_world::{SystemTime, World, systems};
 
@@ -22,9 +22,12 @@ use crate::queries::{Measured, Queries};
 use crate::record::{Recording, is_cold, measures, record, warm};
 use crate::room::check_room;
 use crate::scene::{Scene, Uploads};
+use crate::series::FIRST_SERIES;
 use crate::statistics::FrameStatistics;
 use crate::targets::Targets;
 use crate::view::View;
+
+use course::Course;
 
 pub use error::RenderError;
 
@@ -47,32 +50,10 @@ pub struct Renderer {
     statistics: FrameStatistics,
     /// Counts the frames of this renderer, for the queries.
     serial: u32,
-    /// What shaders see as `frame_index`.
-    index: u32,
-    views: Views,
-}
-
-/// World to clip of the last two frames.
-#[derive(Default)]
-struct Views {
-    last: Option<(u32, Mat4)>,
-    before: Option<Mat4>,
-}
-
-impl Views {
-    /// That of the frame before the one of this index, which may be drawn again.
-    fn before(&self, index: u32) -> Option<Mat4> {
-        match self.last {
-            Some((last, _)) if last == index => self.before,
-            last => last.map(|(_, matrix)| matrix),
-        }
-    }
-
-    /// Takes note of a frame that is drawn.
-    fn draw(&mut self, index: u32, view_projection: Mat4) {
-        self.before = self.before(index);
-        self.last = Some((index, view_projection));
-    }
+    /// The series that is drawn: the first one, but for the time of a frame.
+    drawn_series: usize,
+    /// By series; there is always the first.
+    series: Vec<Course>,
 }
 
 impl Renderer {
@@ -94,8 +75,8 @@ impl Renderer {
             in_flight: Arc::default(),
             statistics: FrameStatistics::default(),
             serial: 0,
-            index: 0,
-            views: Views::default(),
+            drawn_series: FIRST_SERIES,
+            series: vec![Course::default()],
         }
     }
 
@@ -124,7 +105,9 @@ impl Renderer {
     /// no earlier view of the next.
     pub fn reset_scene(&mut self) {
         self.scene.reset();
-        self.views = Views::default();
+        for course in &mut self.series {
+            course.views = Default::default();
+        }
     }
 
     /// What had to be changed for the scene to fit the device, and materials whose reflection model a
@@ -151,9 +134,14 @@ impl Renderer {
     ) -> Result<&FrameStatistics, RenderError> {
         self.prepare(world, assets, pipeline, view, size, time)?;
         let visible = self.frame.visible_rows();
-        self.overlay.gather(world, &self.scene.meshes, visible);
-        pipeline.begin_frame(self.serial, self.index);
-        self.views.draw(self.index, self.frame.data.view_projection);
+        let series = self.drawn_series;
+        self.overlay
+            .gather(series, world, &self.scene.meshes, visible);
+        let course = &mut self.series[series];
+        pipeline.begin_frame(self.serial, course.index);
+        course
+            .views
+            .draw(course.index, self.frame.data.view_projection);
         let started = Instant::now();
         let (recording, ()) = SystemTime::of("recording", || self.record_frame(pipeline));
         self.statistics.systems.push(recording);
@@ -164,8 +152,38 @@ impl Renderer {
         self.statistics.unconfined_lights = self.frame.unconfined_lights(world);
         self.statistics.uploaded_bytes = self.scene.take_uploaded_bytes();
         self.serial = self.serial.wrapping_add(1);
-        self.index = self.index.wrapping_add(1);
+        let course = &mut self.series[series];
+        course.index = course.index.wrapping_add(1);
         Ok(&self.statistics)
+    }
+
+    /// As [`Renderer::render`], as the next picture of a series of its own: see [`crate::series`]. What
+    /// is drawn is in [`Pipeline::targets_of`].
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    #[allow(clippy::too_many_arguments)] // Those of `render`, and which series.
+    pub fn render_in(
+        &mut self,
+        series: usize,
+        world: &mut World,
+        assets: &Assets,
+        pipeline: &mut Pipeline,
+        view: &View,
+        size: (u32, u32),
+        time: f64,
+    ) -> Result<&FrameStatistics, RenderError> {
+        if self.series.len() <= series {
+            self.series.resize_with(series + 1, Course::default);
+        }
+        pipeline.swap_series(series);
+        self.drawn_series = series;
+        let result = self
+            .render(world, assets, pipeline, view, size, time)
+            .map(|_| ());
+        self.drawn_series = FIRST_SERIES;
+        pipeline.swap_series(series);
+        result.map(|()| &self.statistics)
     }
 
     /// Makes a pipeline ready to draw without a delay: once the device is idle, draws once, clipped
@@ -240,8 +258,13 @@ impl Renderer {
         self.queries.resolve(&mut encoder);
         if let Some(targets) = pipeline.targets() {
             let buffers = self.scene.meshes.buffers();
-            self.overlay
-                .draw(buffers, &group, targets.size, &mut encoder);
+            self.overlay.draw(
+                self.drawn_series,
+                buffers,
+                &group,
+                targets.size,
+                &mut encoder,
+            );
         }
         self.inspector.end_frame(&mut encoder);
         self.submit(encoder);
@@ -292,13 +315,14 @@ impl Renderer {
             .map_err(RenderError::Scene)?;
         self.tell_models(pipeline);
         let (copying, ()) = SystemTime::of("changed rows", || self.scene.sync_world(world));
+        let course = &self.series[self.drawn_series];
         let request = FrameRequest {
             view: *view,
             size: (width, height),
             time: time as f32,
-            index: self.index,
+            index: course.index,
             models: pipeline.models,
-            previous: self.views.before(self.index),
+            previous: course.views.before(course.index),
             lists: &pipeline.lists,
             light_lists: &pipeline.light_lists,
             shadow_lists: &pipeline.shadow_lists,
@@ -372,7 +396,7 @@ impl Renderer {
         size: (u32, u32),
         time: f64,
     ) -> Result<&FrameStatistics, RenderError> {
-        let index = self.index;
+        let index = self.frame_index();
         if pipeline.may_outgrow() {
             // Results of earlier frames that nobody took would leave no room for this one's.
             self.finish(WAIT_SECONDS)?;
@@ -413,12 +437,12 @@ impl Renderer {
     /// Sets what the shaders of the next frame see as `frame_index`, which then counts on. Several
     /// pipelines that draw the same moment of a scene must see the same.
     pub fn set_frame_index(&mut self, index: u32) {
-        self.index = index;
+        self.series[FIRST_SERIES].index = index;
     }
 
     /// What the shaders of the next frame see as `frame_index`.
     pub fn frame_index(&self) -> u32 {
-        self.index
+        self.series[FIRST_SERIES].index
     }
 
     /// The frame as it was last extracted.

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod figures;
+mod formulas;
+mod mutants;
 mod texts;
 mod variants;
 

@@ -71,7 +71,10 @@ fn shape(lesson: &Lesson, language: Language) -> (Vec<String>, Vec<String>, Vec<
     let text = lesson.text(language).unwrap();
     let headings = text.markdown.lines().filter(|line| line.starts_with('#'));
     let levels = headings.map(|line| line.chars().take_while(|c| *c == '#').collect());
-    let links = text.links().into_iter().map(|link| link.target);
+    // Formulas with words are drawn once for each language.
+    let ending = format!(".{}.svg", language.code());
+    let links = text.links().into_iter();
+    let links = links.map(|link| link.target.replace(&ending, ".svg"));
     let listings = text.listings().into_iter().map(|listing| listing.code);
     (levels.collect(), links.collect(), listings.collect())
 }

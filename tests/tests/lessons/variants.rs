@@ -26,10 +26,19 @@ struct Mistake {
 }
 
 #[derive(Deserialize)]
-struct Right {
+struct Edit {
     file: String,
     from: String,
     to: String,
+}
+
+/// Another right way: one change, and more of them where several tasks are solved otherwise at once.
+#[derive(Deserialize)]
+struct Right {
+    #[serde(flatten)]
+    first: Edit,
+    #[serde(default)]
+    and: Vec<Edit>,
 }
 
 fn variants(folder: &Path) -> Variants {
@@ -141,13 +150,18 @@ fn other_right_ways_get_all_points() {
     for (folder, lesson) in all() {
         for right in variants(&folder).right {
             let work = solved(&folder);
-            edit(work.path(), &right.file, &right.from, &right.to);
+            let mut changed = Vec::new();
+            for one in std::iter::once(&right.first).chain(&right.and) {
+                edit(work.path(), &one.file, &one.from, &one.to);
+                changed.push(one.to.as_str());
+            }
             let outcome = checked(&lesson, work.path(), &task_ids(&lesson));
             assert_eq!(
                 outcome.points,
                 outcome.of,
-                "`{}`: {}",
-                right.to,
+                "{}: `{}`: {}",
+                lesson.name,
+                changed.join("` and `"),
                 told(&outcome)
             );
         }

@@ -114,7 +114,8 @@ impl Checking {
         };
         let begun = lesson_of(work);
         let asked = self.lesson.clone();
-        let Some(asked) = asked.or_else(|| begun.as_ref().map(|begun| begun.name.clone())) else {
+        let Some(asked) = asked.or_else(|| begun.as_ref().map(|begun| begun.asked().to_owned()))
+        else {
             let usage = format!(
                 "name the lesson: {} does not say which one it is for",
                 work.display()

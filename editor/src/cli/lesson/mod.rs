@@ -9,9 +9,10 @@ pub mod worker;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use lightbench::assets::files::Files;
+use lightbench::assets::files::{Files, write_atomic};
 use lightbench::lab::lesson::{self, Lesson, find_lesson, list_lessons};
 
+use super::project;
 use super::report::{self, note, say};
 
 /// The language of texts and messages.
@@ -71,6 +72,27 @@ started in the project, checks what you have.")]
         #[arg(long, value_enum, default_value_t)]
         language: Language,
     },
+    /// Writes a lesson as one HTML page, to be printed or read offline
+    #[command(after_help = "\
+Examples:
+  lightbench lesson print 1 --out first-light.html
+  lightbench lesson print 1 --language es --id ana.perez --out primera-luz.html
+
+The page holds all pictures and formulas, and what gives points. A browser prints it.")]
+    Print {
+        /// The lesson: its number, its name, or its folder
+        #[arg(value_name = "LESSON")]
+        lesson: String,
+        /// The file to write
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+        /// The language of the page
+        #[arg(long, value_enum, default_value_t)]
+        language: Language,
+        /// The student whose numbers are printed
+        #[arg(long, value_name = "STUDENT")]
+        id: Option<String>,
+    },
     /// Copies a lesson as students get it, without its solution and its hidden checks
     #[command(after_help = "\
 Example:
@@ -110,6 +132,18 @@ pub fn run(arguments: &Arguments, files: &Files) -> anyhow::Result<()> {
                 lesson.about.pipeline
             ));
             Ok(())
+        }
+        What::Print {
+            lesson,
+            out,
+            language,
+            id,
+        } => {
+            project::writable(out)?;
+            let lesson = find(files, lesson)?;
+            let page = lesson::print(&lesson, (*language).into(), id.as_deref())?;
+            write_atomic(out, page.as_bytes())?;
+            say(out.display().to_string())
         }
         What::Pack { lesson, student } => {
             let lesson = find(files, lesson)?;

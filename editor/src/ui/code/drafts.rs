@@ -1,7 +1,6 @@
 //! Unsaved texts, kept in files of their own every few seconds, so that a crash takes little.
 //!
-//! Each run of the editor has a folder for them, and holds a lock in it while it runs. The system
-//! gives up the lock however the program ends, so that a folder without one is what a crash left.
+//! Each run of the editor has a folder for them.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -16,13 +15,14 @@ use serde_json::{Value, json};
 
 use super::document::Document;
 use crate::ui::messages::say;
+use crate::ui::runs::{abandoned, lock, name_of_run};
 
 /// How long a change waits for others before it is kept. With the time that writing takes this is
 /// the most that a crash can take.
 pub const PAUSE: Duration = Duration::from_secs(2);
 
-/// The lock of a run, in its folder.
-const LOCK: &str = "lock";
+/// How long it takes until texts that could not be kept are tried again.
+const AGAIN: Duration = Duration::from_secs(10);
 
 /// A text that was not saved when the program ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,6 +73,8 @@ enum Order {
 struct Known {
     /// The edits of the text that was kept last.
     kept: Option<u64>,
+    /// Whether there may be a file of it.
+    is_on_disk: bool,
     /// When the first change came that is not kept.
     since: Option<Instant>,
 }
@@ -81,13 +83,15 @@ struct Known {
 pub struct Drafts {
     /// This run's folder; it is made with the first draft.
     folder: Option<PathBuf>,
-    lock: Option<File>,
     /// Those of runs that have ended, while their drafts are offered.
     held: Vec<File>,
     known: BTreeMap<String, Known>,
     orders: Option<Sender<Order>>,
-    errors: Option<Receiver<String>>,
-    thread: Option<JoinHandle<()>>,
+    results: Option<Receiver<Result<(), String>>>,
+    /// Whether it was told that texts can't be kept.
+    told: bool,
+    /// It gives the lock of this run's folder, if it has one.
+    thread: Option<JoinHandle<Option<File>>>,
 }
 
 impl Drafts {
@@ -115,11 +119,11 @@ impl Drafts {
         let folder = root.map(|root| root.join(name_of_run()));
         let this = Self {
             folder,
-            lock: None,
             held,
             known: BTreeMap::new(),
             orders: None,
-            errors: None,
+            results: None,
+            told: false,
             thread: None,
         };
         (this, left)
@@ -132,7 +136,7 @@ impl Drafts {
         self.known.retain(|path, known| {
             let document = documents.iter().find(|document| document.path == *path);
             let stays = document.is_some_and(Document::is_unsaved);
-            if !stays && known.kept.is_some() {
+            if !stays && known.is_on_disk {
                 orders.push(Order::Remove(name_of(path).into()));
             }
             stays
@@ -145,7 +149,7 @@ impl Drafts {
             }
             let since = *known.since.get_or_insert(now);
             if now.saturating_duration_since(since) >= PAUSE {
-                known.kept = Some(document.edits());
+                (known.kept, known.is_on_disk) = (Some(document.edits()), true);
                 known.since = None;
                 orders.push(Order::Write(
                     name_of(&document.path).into(),
@@ -156,14 +160,29 @@ impl Drafts {
         for order in orders {
             self.send(order);
         }
-        let errors = self.errors.iter().flat_map(Receiver::try_iter);
-        errors.collect()
+        let results: Vec<_> = self.results.iter().flat_map(Receiver::try_iter).collect();
+        let mut news = Vec::new();
+        for result in results {
+            let Err(why) = result else {
+                self.told = false;
+                continue;
+            };
+            // Tried again later, and told once.
+            for known in self.known.values_mut() {
+                known.kept = None;
+                known.since = Some(now + AGAIN);
+            }
+            if !std::mem::replace(&mut self.told, true) {
+                news.push(why);
+            }
+        }
+        news
     }
 
     /// Keeps a text at once.
     pub fn keep(&mut self, document: &Document) {
         let known = self.known.entry(document.path.clone()).or_default();
-        known.kept = Some(document.edits());
+        (known.kept, known.is_on_disk) = (Some(document.edits()), true);
         known.since = None;
         self.send(Order::Write(
             name_of(&document.path).into(),
@@ -189,22 +208,24 @@ impl Drafts {
         };
         if self.orders.is_none() {
             let (orders, inbox) = channel();
-            let (outbox, errors) = channel();
+            let (outbox, results) = channel();
             self.orders = Some(orders);
-            self.errors = Some(errors);
-            // The lock is there before the first draft is, so that no other run takes it.
-            match lock(&folder) {
-                Ok(lock) => self.lock = Some(lock),
-                Err(error) => _ = outbox.send(complaint(&folder, &error)),
-            }
+            self.results = Some(results);
             self.thread = Some(std::thread::spawn(move || {
+                let mut held = None;
                 for order in inbox {
-                    if let Err(error) = follow(&folder, order)
-                        && outbox.send(error).is_err()
-                    {
-                        return;
+                    // The lock is there before the first draft is, so that no other run takes it.
+                    let locked = match &held {
+                        Some(_) => Ok(()),
+                        None => lock(&folder).map(|lock| held = Some(lock)),
+                    };
+                    let locked = locked.map_err(|error| complaint(&folder, &error));
+                    let done = locked.and_then(|()| follow(&folder, order));
+                    if outbox.send(done).is_err() {
+                        break;
                     }
                 }
+                held
             }));
         }
         if let Some(orders) = &self.orders {
@@ -217,13 +238,15 @@ impl Drafts {
 impl Drop for Drafts {
     fn drop(&mut self) {
         self.orders = None;
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            tracing::error!("the thread that keeps unsaved texts panicked");
-        }
+        let lock = self.thread.take().and_then(|thread| {
+            let ended = thread.join();
+            if ended.is_err() {
+                tracing::error!("the thread that keeps unsaved texts panicked");
+            }
+            ended.ok().flatten()
+        });
         self.held.clear();
-        if self.lock.take().is_some()
+        if lock.is_some()
             && let Some(folder) = &self.folder
             && drafts_in(folder).is_empty()
         {
@@ -255,32 +278,11 @@ fn complaint(folder: &Path, error: &dyn std::fmt::Display) -> String {
     )
 }
 
-/// Makes the folder of a run and its lock.
-fn lock(folder: &Path) -> std::io::Result<File> {
-    fs::create_dir_all(folder)?;
-    let file = File::create(folder.join(LOCK))?;
-    file.try_lock().map_err(std::io::Error::from)?;
-    Ok(file)
-}
-
-/// The lock of a run that has ended; `None` where it goes on.
-fn abandoned(folder: &Path) -> Option<File> {
-    let file = File::open(folder.join(LOCK)).ok()?;
-    file.try_lock().ok()?;
-    Some(file)
-}
-
 fn drafts_in(folder: &Path) -> Vec<Draft> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let files = entries.map(|entry| entry.path());
     let files = files.filter(|file| file.extension().is_some_and(|end| end == "json"));
     files.filter_map(|file| Draft::read(&file)).collect()
-}
-
-fn name_of_run() -> String {
-    let since = std::time::SystemTime::UNIX_EPOCH.elapsed();
-    let nanos = since.map_or(0, |since| since.as_nanos());
-    format!("{}-{nanos}", std::process::id())
 }
 
 /// The name of a document's draft.
@@ -386,8 +388,19 @@ mod tests {
         fs::write(&desk.root, "a file").unwrap();
         let (mut drafts, _) = desk.open();
         let document = [desk.edited()];
-        drafts.keep(&document[0]);
-        let told = drafts.note(&document, Instant::now());
+        let began = Instant::now();
+        let mut told = Vec::new();
+        for round in 0..30 {
+            told.extend(drafts.note(&document, began + PAUSE * round));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert_eq!(told.len(), 1, "once: {told:?}");
         assert!(told[0].contains("not kept in"), "{told:?}");
+        fs::remove_file(&desk.root).unwrap();
+        for round in 30..40 {
+            drafts.note(&document, began + PAUSE * round);
+        }
+        drop(drafts);
+        assert_eq!(desk.open().1.len(), 1, "it was tried again");
     }
 }

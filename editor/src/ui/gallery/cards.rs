@@ -14,11 +14,13 @@ pub enum Shelf {
     Pipelines,
     /// Small scripts, one idea each.
     Examples,
+    /// Lessons, which open in a panel of their own.
+    Lessons,
 }
 
 impl Shelf {
     /// All, in their order.
-    pub const ALL: [Self; 3] = [Self::Scenes, Self::Pipelines, Self::Examples];
+    pub const ALL: [Self; 4] = [Self::Scenes, Self::Pipelines, Self::Examples, Self::Lessons];
 
     /// The word on its tab.
     pub fn title(self) -> &'static str {
@@ -26,6 +28,7 @@ impl Shelf {
             Self::Scenes => say!("gallery.scenes"),
             Self::Pipelines => say!("gallery.pipelines"),
             Self::Examples => say!("gallery.examples"),
+            Self::Lessons => say!("lesson.shelf"),
         }
     }
 }

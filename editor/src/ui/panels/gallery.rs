@@ -20,6 +20,7 @@ const CARD: egui::Vec2 = vec2(PICTURE.x + 12.0, PICTURE.y + 92.0);
 enum Wish {
     Open(Card),
     Edit(Card),
+    Lesson(String),
 }
 
 /// Draws the window while it is open, and does what was chosen.
@@ -44,6 +45,10 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             open_card(editor, &card);
         }
         Some(Wish::Edit(card)) => edit_card(editor, &card),
+        Some(Wish::Lesson(name)) => {
+            editor.gallery.is_open = false;
+            editor.open_lesson(&name);
+        }
         None => {}
     }
 }
@@ -82,6 +87,9 @@ fn contents(editor: &mut Editor, ui: &mut Ui) -> Option<Wish> {
         ui.weak(say!("gallery.all_draw_the_same_picture_these"));
     }
     ui.separator();
+    if editor.gallery.shelf == Shelf::Lessons {
+        return super::lesson::shelf::show(editor, ui).map(Wish::Lesson);
+    }
     let cards = editor.gallery.shown();
     if cards.is_empty() {
         ui.weak(say!("gallery.nothing_is_called_so"));

@@ -2,9 +2,10 @@
 
 use egui::{Button, MenuBar, Ui};
 
-use crate::ui::actions::{Action, MENUS, key_text};
+use crate::ui::actions::{Action, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
+use crate::ui::menus::MENUS;
 use crate::ui::messages::say;
 use crate::ui::messages::{message, text};
 use crate::ui::panels::palette::scene_title;
@@ -31,7 +32,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                             Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
                             Action::Tool(tool) => editor.viewport.handles.tool == tool,
                             Action::LocalAxes => editor.viewport.handles.local,
-                            Action::Mark(mark) => editor.marks.has(mark),
+                            Action::Mark(mark) => {
+                                editor.marks_of(editor.workbench.focus()).has(mark)
+                            }
                             Action::Compare(action) => action.is_in_force(&editor.workbench),
                             _ => false,
                         };

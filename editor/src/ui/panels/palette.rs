@@ -21,6 +21,7 @@ enum Deed {
     Act(Action),
     Scene(String),
     Pipeline(String),
+    Lesson(String),
 }
 
 /// A line of the palette.
@@ -58,10 +59,20 @@ fn all(editor: &Editor, ctx: &Context) -> Vec<Line> {
         key: key_of(&favourites, &entry.name).map_or_else(String::new, |key| key.to_string()),
         deed: Deed::Pipeline(entry.name.clone()),
     });
+    let language = editor.lessons.language;
+    let lessons = editor.lessons.known().iter().filter_map(|listed| {
+        let title = listed.title.as_ref().ok()?.in_language(language);
+        Some(Line {
+            title: say!("lesson.in_palette", title = title),
+            key: String::new(),
+            deed: Deed::Lesson(listed.name.clone()),
+        })
+    });
     actions
         .chain(recent)
         .chain(scenes)
         .chain(pipelines)
+        .chain(lessons)
         .collect()
 }
 
@@ -83,6 +94,8 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let Some(mut palette) = editor.palette.take() else {
         return;
     };
+    let files = editor.workbench.files().clone();
+    editor.lessons.list(&files);
     let mut lines = all(editor, ctx);
     lines.retain(|line| fits(&line.title, &palette.typed));
     let press = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -113,6 +126,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     match deed {
         Some(Deed::Act(action)) => editor.perform(action, ctx),
         Some(Deed::Scene(name)) => editor.open_scene(&name),
+        Some(Deed::Lesson(name)) => editor.open_lesson(&name),
         Some(Deed::Pipeline(name)) => editor.workbench.select_pipeline(&name),
         None if escaped || modal.should_close() => {}
         None => editor.palette = Some(palette),

@@ -10,10 +10,11 @@ use crate::ui::lens::Lens;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::extent::bounds_of;
 use crate::ui::workbench::structure::is_locked;
+use crate::ui::workbench::viewports::Viewport;
 
 /// Chooses what is under a place; nothing there chooses none. With `more` what was chosen stays.
-pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool) {
-    let icons = editor.marks.has(Mark::Icons);
+pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool, viewport: Viewport) {
+    let icons = editor.marks_of(viewport).has(Mark::Icons);
     let workbench = &mut editor.workbench;
     let Some(scene) = workbench.scenes.scene() else {
         return;
@@ -33,8 +34,8 @@ pub fn click(editor: &mut Editor, lens: &Lens, at: Pos2, more: bool) {
 }
 
 /// Chooses everything whose middle is in a box. With `more` what was chosen stays.
-pub fn within(editor: &mut Editor, lens: &Lens, area: Rect, more: bool) {
-    let icons = editor.marks.has(Mark::Icons);
+pub fn within(editor: &mut Editor, lens: &Lens, area: Rect, more: bool, viewport: Viewport) {
+    let icons = editor.marks_of(viewport).has(Mark::Icons);
     let workbench = &mut editor.workbench;
     let Some(scene) = workbench.scenes.scene() else {
         return;

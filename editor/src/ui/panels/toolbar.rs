@@ -148,7 +148,8 @@ fn camera(editor: &mut Editor, ui: &mut Ui) {
     // Together on one line, where the toolbar takes two.
     ui.horizontal(|ui| {
         let label = ui.label(say!("toolbar.flying_speed"));
-        let field = DragValue::new(&mut editor.workbench.camera.speed)
+        let focus = editor.workbench.focus();
+        let field = DragValue::new(&mut editor.workbench.camera_of_mut(focus).speed)
             .range(0.01..=10_000.0)
             .speed(0.05)
             .max_decimals(2)

@@ -14,9 +14,10 @@ pub struct PasteWindow {
     problem: Option<String>,
 }
 
-/// Copies what is on the screen; of two pipelines, with A.
+/// Copies what is on the screen; of two pipelines, with A; of two viewports, the one that has the focus.
 pub fn copy(editor: &mut Editor, ctx: &Context) {
-    let Some(view) = editor.workbench.viewpoint() else {
+    let focus = editor.workbench.focus();
+    let Some(view) = editor.workbench.viewpoint_in(focus) else {
         let text = say!("view_text.there_is_no_view_to_copy");
         editor.workbench.log.warn(text);
         return;

@@ -3,42 +3,41 @@
 use std::time::Instant;
 
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Id, Key, Margin, PointerButton, Pos2, Rect, Response,
-    RichText, Sense, TextureOptions, Ui, vec2,
+    Align2, Color32, CornerRadius, FontId, Id, Margin, Pos2, Rect, RichText, Sense, StrokeKind,
+    TextureOptions, Ui, vec2,
 };
 use lightbench::render::Problem;
-use lightbench::script::SceneEvent;
-use lightbench::world::glam::{Vec2, Vec3};
 
 use super::handles::{self, Handles};
 use super::marks::Mark;
-use super::{compare, heat_map, marks, select, stepping, widgets};
+use super::{compare, heat_map, marks, select, steering, stepping, widgets};
 use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::lens::Lens;
 use crate::ui::messages::say;
 use crate::ui::screen::Place;
 use crate::ui::theme::Palette;
-
-/// Radians that a drag over one point turns.
-const TURN: f32 = 0.006;
+use crate::ui::workbench::viewports::Viewport;
 
 /// Problems shown over the picture; all are in the log.
 const MOST_PROBLEMS: usize = 4;
 
-/// Draws the viewport.
-pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
+/// Draws a viewport.
+pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant, viewport: Viewport) {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Image, true, say!("viewport.viewport"))
-    });
-    let lens = Lens::new(rect, editor.workbench.camera.view());
-    compare::interact(editor, ui, rect);
-    let held =
-        handles::interact(editor, ui, &response, &lens) || select_box(editor, ui, &response, &lens);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, viewport.title()));
+    // What looks into frames looks into those of the first one.
+    let is_first = viewport == Viewport::First;
+    let lens = Lens::new(rect, editor.workbench.camera_of(viewport).view());
+    if is_first {
+        compare::interact(editor, ui, rect);
+    }
+    steering::take_focus(editor, &response, viewport);
+    let held = handles::interact(editor, ui, &response, &lens, viewport)
+        || steering::select_box(editor, ui, &response, &lens, viewport);
     if !held {
-        steer(editor, ui, &response);
+        steering::steer(editor, ui, &response, viewport);
     }
 
     if let Some(at) = response
@@ -46,56 +45,36 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         .filter(|_| response.clicked())
     {
         let more = ui.input(|input| input.modifiers.command);
-        select::click(editor, &lens, at, more);
-        probe(editor, rect, at);
+        select::click(editor, &lens, at, more, viewport);
+        if is_first {
+            probe(editor, rect, at);
+        }
         let share = (at - rect.min) / rect.size();
         editor
             .workbench
-            .click([share.x, share.y], rect.aspect_ratio());
+            .click(viewport, [share.x, share.y], rect.aspect_ratio());
     }
-    listen(editor, ui, &response);
+    steering::listen(editor, ui, &response);
 
-    let pixels = rect.size() * ui.ctx().pixels_per_point();
-    let size = (pixels.x.round() as u32, pixels.y.round() as u32);
-    let over = editor.marks;
-    let [edges, normals, alone] =
-        [Mark::Edges, Mark::Normals, Mark::OfChosen].map(|mark| over.has(mark));
-    editor.workbench.draw_lines(edges, normals, alone);
-    let picture = editor.workbench.draw(size, now);
-    let painter = ui.painter_at(rect);
-    painter.rect_filled(rect, CornerRadius::ZERO, ui.visuals().extreme_bg_color);
-    let scale = picture.as_ref().map(|picture| picture.scale);
-    if let Some(picture) = picture {
-        // A smaller picture is stretched; one of the same size is shown texel for pixel.
-        let options = TextureOptions::LINEAR;
-        let id = editor
-            .screen
-            .show(Place::Viewport, &picture.texture, options);
-        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-        painter.image(id, rect, whole, Color32::WHITE);
-    }
-    stepping::show(editor, ui, rect);
-    if let Some(lines) = editor.workbench.lines_picture() {
-        let options = TextureOptions::LINEAR;
-        let id = editor.screen.show(Place::Lines, &lines, options);
-        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-        painter.image(id, rect, whole, Color32::WHITE);
-    }
-
+    let scale = pictures(editor, ui, rect, now, viewport);
     // The camera may have moved since.
-    let lens = Lens::new(rect, editor.workbench.camera.view());
-    marks::show(editor, ui, &lens);
-    handles::show(editor, ui, &lens, response.hover_pos());
-    if let Some(area) = editor.viewport.area {
+    let lens = Lens::new(rect, editor.workbench.camera_of(viewport).view());
+    marks::show(editor, ui, &lens, viewport);
+    handles::show(editor, ui, &lens, response.hover_pos(), viewport);
+    if let Some((_, area)) = editor.viewport.area.filter(|(of, _)| *of == viewport) {
         select::show(ui, &lens, area);
     }
-    probed_pixel(editor, ui, rect);
-    compare::over(editor, ui, rect);
+    if is_first {
+        probed_pixel(editor, ui, rect);
+        compare::over(editor, ui, rect);
+    }
     if let Some(pipeline) = editor.workbench.pipelines.shown_pipeline() {
         heat_map::legend(ui, rect, &pipeline.desc);
     }
-    problems(editor, ui, rect);
-    loading(editor, ui, rect, scale.is_some());
+    if is_first {
+        problems(editor, ui, rect);
+        loading(editor, ui, rect, scale.is_some());
+    }
     if let Some(scale) = scale.filter(|scale| *scale < 1.0) {
         let text = say!(
             "viewport.resolution_while_moving",
@@ -103,40 +82,76 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, now: Instant) {
         );
         note(ui, rect, Align2::RIGHT_TOP, &text);
     }
-    if editor.hint && !editor.welcome {
+    if is_first && editor.hint && !editor.welcome {
         hint(editor, ui, rect);
     }
+    if editor.workbench.second.is_open() && editor.workbench.focus() == viewport {
+        frame(ui, rect);
+    }
 }
 
-/// What the viewport remembers from frame to frame.
+/// Draws the picture and the lines over it. Gives the picture's scale, where there is one.
+fn pictures(
+    editor: &mut Editor,
+    ui: &mut Ui,
+    rect: Rect,
+    now: Instant,
+    viewport: Viewport,
+) -> Option<f32> {
+    let over = editor.marks_of(viewport);
+    let [edges, normals, alone] =
+        [Mark::Edges, Mark::Normals, Mark::OfChosen].map(|mark| over.has(mark));
+    let workbench = &mut editor.workbench;
+    workbench.draw_lines(viewport, edges, normals, alone);
+    let pixels = rect.size() * ui.ctx().pixels_per_point();
+    let size = (pixels.x.round() as u32, pixels.y.round() as u32);
+    let (picture, place, place_of_lines) = match viewport {
+        Viewport::First => (workbench.draw(size, now), Place::Viewport, Place::Lines),
+        Viewport::Second => (
+            workbench.draw_second(size, now),
+            Place::Second,
+            Place::SecondLines,
+        ),
+    };
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, CornerRadius::ZERO, ui.visuals().extreme_bg_color);
+    let scale = picture.as_ref().map(|picture| picture.scale);
+    let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+    if let Some(picture) = picture {
+        // A smaller picture is stretched; one of the same size is shown texel for pixel.
+        let options = TextureOptions::LINEAR;
+        let id = editor.screen.show(place, &picture.texture, options);
+        painter.image(id, rect, whole, Color32::WHITE);
+    }
+    if viewport == Viewport::First {
+        stepping::show(editor, ui, rect);
+    }
+    if let Some(lines) = editor.workbench.lines_picture(viewport) {
+        let options = TextureOptions::LINEAR;
+        let id = editor.screen.show(place_of_lines, &lines, options);
+        painter.image(id, rect, whole, Color32::WHITE);
+    }
+    scale
+}
+
+/// The frame of the viewport that has the focus.
+fn frame(ui: &Ui, rect: Rect) {
+    let stroke = egui::Stroke::new(2.0, Palette::of(ui).accent);
+    ui.painter_at(rect)
+        .rect_stroke(rect, CornerRadius::ZERO, stroke, StrokeKind::Inside);
+}
+
+/// What the viewports remember from frame to frame.
 #[derive(Default)]
 pub struct ViewportPanel {
-    /// The box that is being drawn around what is to be chosen.
-    area: Option<Rect>,
+    /// The box that is being drawn around what is to be chosen, and where.
+    pub(super) area: Option<(Viewport, Rect)>,
+    /// Whether the pointer is over one of them.
+    pub(super) has_pointer: bool,
+    /// Which of them can be seen.
+    pub(super) seen: [bool; 2],
     /// The handles of what is chosen.
     pub handles: Handles,
-}
-
-/// Draws a box with Shift, and chooses what is in it. Returns whether it has the pointer.
-fn select_box(editor: &mut Editor, ui: &Ui, response: &Response, lens: &Lens) -> bool {
-    let (modifiers, origin) = ui.input(|input| (input.modifiers, input.pointer.press_origin()));
-    if response.drag_started_by(PointerButton::Primary) && modifiers.shift {
-        editor.viewport.area = origin.map(|at| Rect::from_two_pos(at, at));
-    }
-    let Some(area) = editor.viewport.area else {
-        return false;
-    };
-    let corner = ui.input(|input| input.pointer.latest_pos());
-    let area = match (origin, corner) {
-        (Some(from), Some(to)) => Rect::from_two_pos(from, to),
-        _ => area,
-    };
-    editor.viewport.area = Some(area);
-    if !response.dragged_by(PointerButton::Primary) {
-        editor.viewport.area = None;
-        select::within(editor, lens, area, modifiers.command);
-    }
-    true
 }
 
 /// Asks what the passes do to the pixel under the pointer.
@@ -170,92 +185,6 @@ fn probed_pixel(editor: &Editor, ui: &Ui, rect: Rect) {
     let painter = ui.painter_at(rect);
     for (radius, color) in [(6.0, Color32::BLACK), (5.0, Color32::WHITE)] {
         painter.circle_stroke(center, radius, egui::Stroke::new(1.0, color));
-    }
-}
-
-/// Keys and pointer to the scene's scripts, while the pointer is over the picture.
-fn listen(editor: &mut Editor, ui: &Ui, response: &Response) {
-    let workbench = &mut editor.workbench;
-    let pointer = response.hover_pos().map(|at| {
-        let share = (at - response.rect.min) / response.rect.size();
-        [share.x, share.y]
-    });
-    let typing = ui.ctx().egui_wants_keyboard_input() || editor.viewport.handles.is_dragged();
-    let away = pointer.is_none() || typing;
-    workbench.scene_has_keys = !away && workbench.scene_wants_keys();
-    if away {
-        workbench.happen(SceneEvent::Leave);
-        return;
-    }
-    workbench.happen(SceneEvent::Pointer(pointer));
-    ui.input(|input| {
-        for event in &input.events {
-            if let egui::Event::Key {
-                key,
-                pressed,
-                modifiers,
-                ..
-            } = event
-                && !modifiers.command
-            {
-                let name = key.name().to_lowercase();
-                workbench.happen(if *pressed {
-                    SceneEvent::KeyDown(name)
-                } else {
-                    SceneEvent::KeyUp(name)
-                });
-            }
-        }
-    });
-}
-
-/// Mouse and keys to camera.
-fn steer(editor: &mut Editor, ui: &Ui, response: &Response) {
-    let camera = &mut editor.workbench.camera;
-    let drag = response.drag_delta();
-    let drag = Vec2::new(drag.x, drag.y);
-    let height = response.rect.height().max(1.0);
-    let shift = ui.input(|input| input.modifiers.shift);
-    let control = ui.input(|input| input.modifiers.command);
-    let by = |button| response.dragged_by(button) && drag != Vec2::ZERO;
-    let is_flat = camera.flat().is_some();
-    let turns = by(PointerButton::Primary) || by(PointerButton::Secondary);
-    if by(PointerButton::Middle) || by(PointerButton::Primary) && control || is_flat && turns {
-        camera.pan(drag / height);
-    } else if by(PointerButton::Primary) {
-        camera.orbit(-drag * TURN);
-    } else if by(PointerButton::Secondary) {
-        camera.look(-drag * TURN);
-    }
-    if !response.hovered() && !response.dragged() {
-        return;
-    }
-    let (scroll, elapsed) = ui.input(|input| (input.smooth_scroll_delta().y, input.stable_dt));
-    if scroll != 0.0 {
-        camera.zoom(scroll / 40.0);
-    }
-    if ui.ctx().egui_wants_keyboard_input() || editor.workbench.scene_has_keys {
-        return;
-    }
-    let direction = ui.input(|input| {
-        if input.modifiers.command || input.modifiers.alt {
-            return Vec3::ZERO;
-        }
-        let axis = |minus, plus| f32::from(input.key_down(plus)) - f32::from(input.key_down(minus));
-        Vec3::new(
-            axis(Key::A, Key::D),
-            axis(Key::Q, Key::E),
-            axis(Key::W, Key::S),
-        )
-    });
-    if direction != Vec3::ZERO {
-        let faster = if shift { 4.0 } else { 1.0 };
-        // A frame that took long must not throw the camera far.
-        editor
-            .workbench
-            .camera
-            .fly(direction, elapsed.min(0.1) * faster);
-        ui.ctx().request_repaint();
     }
 }
 

@@ -136,7 +136,7 @@ impl Workbench {
     }
 
     /// The names of entities, some of them, for people.
-    pub fn names_of(&self, entities: &[Entity]) -> String {
+    pub fn names_for_people(&self, entities: &[Entity]) -> String {
         /// So many are named.
         const SOME: usize = 12;
         let Some(scene) = self.scenes.scene() else {

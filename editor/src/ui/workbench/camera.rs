@@ -75,9 +75,10 @@ impl CameraRig {
         self.flat.as_ref()
     }
 
-    /// Shows all of a box from a side, without perspective.
-    pub fn flatten(&mut self, side: Side, min: Vec3, max: Vec3) {
-        self.flat = Some(Flat::of_box(side, min, max));
+    /// Shows all of a box from a side, without perspective, in a picture that is so many times as wide as
+    /// high.
+    pub fn flatten(&mut self, side: Side, (min, max): (Vec3, Vec3), aspect: f32) {
+        self.flat = Some(Flat::of_box(side, min, max, aspect));
     }
 
     /// A perspective that follows nothing, from where the camera was last.
@@ -184,13 +185,15 @@ impl CameraRig {
         self.moved = true;
     }
 
-    /// Shows all of a box from the present direction.
-    pub fn frame(&mut self, min: Vec3, max: Vec3) {
+    /// Shows all of a box from the present direction, in a picture that is so many times as wide as high.
+    pub fn frame(&mut self, min: Vec3, max: Vec3, aspect: f32) {
         if let Some(flat) = &mut self.flat {
-            return flat.frame(min, max);
+            return flat.frame(min, max, aspect);
         }
         let radius = ((max - min).length() * 0.5).max(1e-3);
-        self.distance = radius / (self.lens.fov_y * 0.5).sin();
+        // Half of the smaller of both angles of view.
+        let half = ((self.lens.fov_y * 0.5).tan() * aspect.min(1.0)).atan();
+        self.distance = radius / half.sin();
         self.eye = (min + max) * 0.5 - self.forward() * self.distance;
         self.moved = true;
     }
@@ -309,18 +312,20 @@ mod tests {
     fn framing_shows_the_whole_box() {
         let mut rig = rig();
         let (min, max) = (Vec3::new(-7.0, 0.0, 2.0), Vec3::new(1.0, 3.0, 20.0));
-        rig.frame(min, max);
-        let clip = rig.view().projection(1.0) * rig.view().view;
-        for corner in 0..8 {
-            let pick = |bit: u32, axis: usize| {
-                if corner >> bit & 1 == 0 {
-                    min[axis]
-                } else {
-                    max[axis]
-                }
-            };
-            let at = clip * Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2)).extend(1.0);
-            assert!(at.w > 0.0 && at.x.abs() <= at.w && at.y.abs() <= at.w);
+        for aspect in [0.4, 1.0, 1.8] {
+            rig.frame(min, max, aspect);
+            let clip = rig.view().projection(aspect) * rig.view().view;
+            for corner in 0..8 {
+                let pick = |bit: u32, axis: usize| {
+                    if corner >> bit & 1 == 0 {
+                        min[axis]
+                    } else {
+                        max[axis]
+                    }
+                };
+                let at = clip * Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2)).extend(1.0);
+                assert!(at.w > 0.0 && at.x.abs() <= at.w && at.y.abs() <= at.w);
+            }
         }
     }
 

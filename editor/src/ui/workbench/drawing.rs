@@ -1,85 +1,16 @@
 //! Frames of the viewport: when to draw one, and at which size.
 
-use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use lightbench::render::queries::Measured;
-use lightbench::render::{FrameStatistics, Place, Problem, RenderError, View};
+use lightbench::render::{Place, Problem, RenderError};
 
 use super::Workbench;
-use super::resolution::Resolution;
-
-/// How long nothing must move before the picture is drawn at full size.
-const REST: Duration = Duration::from_millis(250);
-
-/// How long a picture stays at most while a newer state of its pipeline is built or of its scene
-/// loaded: the cores of a software driver are better spent on that.
-const HOLD: Duration = Duration::from_millis(250);
+use super::canvas::Drawn;
+use super::viewports::Viewport;
 
 /// Frames that the device may have to do at once. The next one would wait for it, and all widgets
 /// with it. A software driver does one at a time.
 const IN_FLIGHT: usize = 3;
-
-/// Frames whose time includes the driver's compiler, and says nothing about the next.
-const WARM_UP: u32 = 2;
-
-/// What the picture on screen was made from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Drawn {
-    view: View,
-    size: (u32, u32),
-    scale: f32,
-}
-
-/// The state of the viewport's picture.
-#[derive(Debug, Default)]
-pub(super) struct Canvas {
-    drawn: Option<Drawn>,
-    /// Something other than view and size changed since.
-    stale: bool,
-    /// The same picture is wanted once more, at the same size: somebody looks into it.
-    again: bool,
-    moved_at: Option<Instant>,
-    drawn_at: Option<Instant>,
-    /// Submitted frames and their scales.
-    scales: VecDeque<(u32, f32)>,
-    warm_up: u32,
-    pub(super) problem: Option<Problem>,
-    pub(super) statistics: FrameStatistics,
-}
-
-impl Canvas {
-    /// The picture no longer shows the present state.
-    pub(super) fn invalidate(&mut self) {
-        self.stale = true;
-    }
-
-    /// Draws once more what is on screen.
-    pub(super) fn repeat(&mut self) {
-        self.again = true;
-    }
-
-    /// As [`Canvas::invalidate`], and the next frames compile shaders.
-    pub(super) fn new_pipeline(&mut self) {
-        self.stale = true;
-        self.warm_up = WARM_UP;
-    }
-
-    /// The scale and time of a measured frame, where it may guide the resolution.
-    pub(super) fn measured(&mut self, measured: &Measured) -> Option<(f32, f64)> {
-        let at = self
-            .scales
-            .iter()
-            .position(|(frame, _)| *frame == measured.frame)?;
-        let scale = self.scales[at].1;
-        self.scales.drain(..=at);
-        if self.warm_up > 0 {
-            self.warm_up -= 1;
-            return None;
-        }
-        Some((scale, measured.total_ms?))
-    }
-}
 
 /// The picture for the viewport.
 #[derive(Clone, Debug)]
@@ -95,34 +26,21 @@ impl Workbench {
     /// until the first scene and pipeline are ready.
     pub fn draw(&mut self, size: (u32, u32), now: Instant) -> Option<Picture> {
         let size = (size.0.max(1), size.1.max(1));
-        let view = self.camera.view();
-        let before = self.canvas.drawn;
-        // What changes counts as moving: a slow adapter shows it small at once, and in full as soon
-        // as nothing follows.
-        let changed = before.is_some_and(|drawn| drawn.view != view || self.canvas.stale);
-        if self.clock.playing || changed {
-            self.canvas.moved_at = Some(now);
-        }
-        let moving = self.canvas.moved_at.is_some_and(|at| now - at < REST);
-        let scale = match before {
-            Some(drawn) if self.canvas.again => drawn.scale,
-            _ => self.resolution.scale(moving),
-        };
-        let wanted = Drawn { view, size, scale };
-        self.follow_stop();
-        self.go_on_with_other();
-        self.warm_up(wanted);
-        let held = self.canvas.drawn_at.is_some_and(|at| now - at < HOLD);
-        let held = held && (self.pipelines.is_renewing() || self.scenes.is_renewing());
-        if (self.canvas.stale || self.canvas.again || before != Some(wanted))
-            && !held
-            && !self.comparing.is_waiting()
-            && self.has_room()
-        {
-            self.canvas.drawn_at = Some(now);
+        let looks = (self.camera.view(), size);
+        let playing = self.clock.playing;
+        let wanted = self.canvas.wanted(looks, now, playing, &self.resolution);
+        self.go_on(wanted);
+        let due = self.canvas.is_due(wanted)
+            && !self.is_held(Viewport::First, now)
+            && !self.comparing.is_waiting();
+        if due && self.may_draw(Viewport::First) {
+            self.canvas.begin(now);
             self.redraw(wanted);
-        } else if self.has_room() {
-            self.go_on_beside();
+        } else {
+            self.canvas.waits = due;
+            if !due && self.has_room() {
+                self.go_on_beside();
+            }
         }
         let picture = self.picture()?;
         let texture = self.compared_picture(&picture.texture, now);
@@ -146,6 +64,26 @@ impl Workbench {
         self.redraw(Drawn { view, size, scale });
     }
 
+    /// Goes on with what is to be drawn beside the picture.
+    pub(super) fn go_on(&mut self, wanted: Drawn) {
+        self.follow_stop();
+        self.go_on_with_other();
+        self.warm_up(wanted);
+    }
+
+    /// Whether a viewport's picture stays until a newer state is there.
+    pub(super) fn is_held(&self, viewport: Viewport, now: Instant) -> bool {
+        let renews = self.pipelines.is_renewing() || self.scenes.is_renewing();
+        renews && self.canvas_of(viewport).is_fresh(now)
+    }
+
+    /// Whether the device has room for the picture of a viewport. Where both wait for it they draw in
+    /// turn.
+    pub(super) fn may_draw(&self, viewport: Viewport) -> bool {
+        let yields = self.last_drawn == viewport && self.canvas_of(viewport.other()).waits;
+        !yields && self.has_room()
+    }
+
     /// Whether the device could take another frame without letting it wait.
     pub(super) fn has_room(&self) -> bool {
         let most = if self.gpu().summary.software {
@@ -160,13 +98,7 @@ impl Workbench {
     /// it to be drawn once more.
     pub fn picture_is_current(&self) -> bool {
         let view = self.camera.view();
-        let waits = self.canvas.stale || self.canvas.again;
-        !waits && self.canvas.drawn.is_none_or(|drawn| drawn.view == view)
-    }
-
-    /// Width and height of the viewport in pixels.
-    pub(super) fn viewport_size(&self) -> Option<(u32, u32)> {
-        Some(self.canvas.drawn?.size)
+        !self.canvas.is_behind() && self.canvas.drawn.is_none_or(|drawn| drawn.view == view)
     }
 
     /// The factor between the viewport's pixels and those of the picture on screen.
@@ -203,6 +135,7 @@ impl Workbench {
         const RESULTS: Duration = Duration::from_millis(20);
         const DEVICE: Duration = Duration::from_millis(4);
         let ready = self.picture_ready();
+        let first_is_seen = self.first_is_seen;
         let soonest = if self.has_room() {
             Duration::ZERO
         } else {
@@ -210,22 +143,19 @@ impl Workbench {
         };
         let soon = [
             (ready && self.clock.playing).then_some(soonest),
-            (ready && (self.canvas.stale || self.canvas.again) && self.canvas.problem.is_none())
+            (ready && first_is_seen && self.canvas.is_behind() && self.canvas.problem.is_none())
                 .then_some(soonest),
+            self.second_due(now, soonest),
             (self.timings.is_waiting() || self.probing.is_waiting()).then_some(RESULTS),
             (self.measuring.is_waiting() || self.beside.is_waiting()).then_some(RESULTS),
             self.lighting.is_waiting().then_some(PROGRESS),
-            (self.scenes.shown().is_some() && self.pipelines.is_warming()).then_some(DEVICE),
+            (self.scenes.shown().is_some() && self.pipelines.is_warming())
+                .then_some(DEVICE)
+                .filter(|_| first_is_seen || self.second.is_open()),
             (self.scenes.is_busy() || self.pipelines.is_busy() || self.library.is_busy())
                 .then_some(PROGRESS),
             // Refine the picture once nothing moves any more.
-            self.canvas
-                .drawn
-                .filter(|drawn| drawn.scale < 1.0)
-                .and_then(|_| {
-                    let at = self.canvas.moved_at?;
-                    Some((at + REST).saturating_duration_since(now))
-                }),
+            self.canvas.refining_due(now).filter(|_| first_is_seen),
             self.comparing_due(now),
             self.is_arriving().then_some(DEVICE),
             (self.reporting.progress().is_some() || self.notebook.is_busy()).then_some(PROGRESS),
@@ -235,14 +165,13 @@ impl Workbench {
 
     /// Size in pixels of the picture on screen.
     pub fn drawn_size(&self) -> Option<(u32, u32)> {
-        let drawn = self.canvas.drawn?;
-        Some(Resolution::apply(drawn.size, drawn.scale))
+        Some(self.canvas.drawn?.pixels())
     }
 
     /// Goes one step on with a pipeline that is not on screen yet. The picture goes on with the last
     /// good one meanwhile.
     fn warm_up(&mut self, wanted: Drawn) {
-        let size = Resolution::apply(wanted.size, wanted.scale);
+        let size = wanted.pixels();
         self.warm_up_other(&wanted.view, size);
         let time = self.clock.time();
         let (Some(scene), Some(pipeline)) = (self.scenes.scene_mut(), self.pipelines.cold()) else {
@@ -268,44 +197,34 @@ impl Workbench {
     fn redraw(&mut self, wanted: Drawn) {
         let index = self.renderer.frame_index();
         self.redraw_first(wanted);
-        let size = Resolution::apply(wanted.size, wanted.scale);
+        let size = wanted.pixels();
         self.redraw_other(wanted.view, size, index);
     }
 
     fn redraw_first(&mut self, wanted: Drawn) {
-        let size = Resolution::apply(wanted.size, wanted.scale);
+        let size = wanted.pixels();
         let time = self.clock.time();
         let Some(scene) = self.scenes.scene_mut() else {
             return;
         };
-        let resized = self
-            .canvas
-            .drawn
-            .is_none_or(|drawn| Resolution::apply(drawn.size, drawn.scale) != size);
-        if resized {
+        if self.canvas.resizes(wanted) {
             self.timings.reset();
             self.pipelines.release_hidden();
         }
         let Some(pipeline) = self.pipelines.shown_pipeline() else {
             return;
         };
+        self.last_drawn = Viewport::First;
         let frame = self.renderer.next_frame();
         let (world, assets) = (&mut scene.world, &scene.assets);
         let result = self
             .renderer
             .render(world, assets, pipeline, &wanted.view, size, time);
-        self.canvas.stale = false;
-        self.canvas.again = false;
+        self.canvas.answered();
         match result {
             Ok(statistics) => {
                 self.timings.submitted(frame, statistics);
-                self.canvas.statistics.clone_from(statistics);
-                self.canvas.scales.push_back((frame, wanted.scale));
-                if self.canvas.scales.len() > 16 {
-                    self.canvas.scales.pop_front();
-                }
-                self.canvas.drawn = Some(wanted);
-                self.canvas.problem = None;
+                self.canvas.submitted(frame, wanted, statistics);
                 let passes = self.pipelines.shown_pipeline();
                 let passes = passes.map_or(&[][..], |pipeline| &pipeline.desc.passes);
                 let names = passes.iter().map(|pass| pass.name.as_str());
@@ -313,22 +232,36 @@ impl Workbench {
                 let assets = self.renderer.asset_bytes();
                 self.trends
                     .submitted(Instant::now(), statistics, assets, names);
-                let looked = self.renderer.inspector().take_problem();
-                let lined = self.renderer.overlay().take_problem();
-                for problem in looked.iter().chain(&lined) {
-                    self.log.problem(problem);
-                }
-            }
-            Err(RenderError::Gpu(error)) => self.device_failed(error),
-            // The last picture stays until that is built.
-            Err(RenderError::NotBuilt(variants)) => self.pipelines.need(variants),
-            Err(error) => {
-                let problem = Problem::new(Place::file("viewport"), error.to_string());
-                if self.canvas.problem.as_ref() != Some(&problem) {
+                if let Some(problem) = self.renderer.inspector().take_problem() {
                     self.log.problem(&problem);
                 }
-                self.canvas.problem = Some(problem);
-                self.canvas.drawn = Some(wanted);
+                self.tell_of_lines();
+            }
+            Err(error) => self.not_drawn(Viewport::First, wanted, error),
+        }
+    }
+
+    /// Says what keeps lines over a picture from being drawn.
+    pub(super) fn tell_of_lines(&mut self) {
+        if let Some(problem) = self.renderer.overlay().take_problem() {
+            self.log.problem(&problem);
+        }
+    }
+
+    /// A picture was not drawn.
+    pub(super) fn not_drawn(&mut self, viewport: Viewport, wanted: Drawn, error: RenderError) {
+        match error {
+            RenderError::Gpu(error) => self.device_failed(error),
+            // The last picture stays until that is built.
+            RenderError::NotBuilt(variants) => self.pipelines.need(variants),
+            error => {
+                let problem = Problem::new(Place::file("viewport"), error.to_string());
+                if self.canvas_of(viewport).problem.as_ref() != Some(&problem) {
+                    self.log.problem(&problem);
+                }
+                let canvas = self.canvas_of_mut(viewport);
+                canvas.problem = Some(problem);
+                canvas.drawn = Some(wanted);
             }
         }
     }

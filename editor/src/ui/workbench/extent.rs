@@ -5,6 +5,7 @@ use lightbench::world::glam::Vec3;
 use lightbench::world::{Entity, WorldBounds, WorldMatrix};
 
 use super::Workbench;
+use super::viewports::Viewport;
 
 /// A box around the meshes of an entity and of all below it.
 pub fn bounds_of(scene: &Scene, entity: Entity) -> Option<(Vec3, Vec3)> {
@@ -22,19 +23,25 @@ pub fn bounds_of(scene: &Scene, entity: Entity) -> Option<(Vec3, Vec3)> {
 }
 
 impl Workbench {
-    /// Shows the whole scene from the present direction.
+    /// Shows the whole scene from the present direction, in the viewport that has the focus.
     pub fn frame_scene(&mut self) {
-        if let Some((min, max)) = self.scene_bounds() {
-            self.camera.frame(min, max);
+        if let Some(bounds) = self.scene_bounds() {
+            self.frame_in(self.focus(), bounds);
         }
     }
 
-    /// Shows all of what is chosen from the present direction, or the whole scene where nothing is.
+    /// Shows all of what is chosen from the present direction, or the whole scene where nothing is, in
+    /// the viewport that has the focus.
     pub fn frame_selection(&mut self) {
         match self.selection_bounds() {
-            Some((min, max)) => self.camera.frame(min, max),
+            Some(bounds) => self.frame_in(self.focus(), bounds),
             None => self.frame_scene(),
         }
+    }
+
+    fn frame_in(&mut self, viewport: Viewport, (min, max): (Vec3, Vec3)) {
+        let aspect = self.aspect_of(viewport);
+        self.camera_of_mut(viewport).frame(min, max, aspect);
     }
 
     /// A box around what is chosen and all below it; what has no mesh counts with the metre around
@@ -51,10 +58,15 @@ impl Workbench {
         boxes.reduce(|(a, b), (min, max)| (a.min(min), b.max(max)))
     }
 
-    /// Back to the scene's own camera.
+    /// Back to the scene's own camera, in the viewport that has the focus.
     pub fn reset_camera(&mut self) {
-        self.watched_camera = None;
-        self.camera.reset();
+        self.reset_camera_of(self.focus());
+    }
+
+    /// The same in a viewport.
+    pub(super) fn reset_camera_of(&mut self, viewport: Viewport) {
+        self.watch_camera(viewport, None);
+        self.camera_of_mut(viewport).reset();
     }
 
     /// A box around everything that is drawn.

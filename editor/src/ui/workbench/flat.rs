@@ -67,8 +67,8 @@ pub struct Flat {
 }
 
 impl Flat {
-    /// A view of all of a box.
-    pub fn of_box(side: Side, min: Vec3, max: Vec3) -> Self {
+    /// A view of all of a box, in a picture that is so many times as wide as high.
+    pub fn of_box(side: Side, min: Vec3, max: Vec3, aspect: f32) -> Self {
         let center = (min + max) * 0.5;
         let mut flat = Self {
             side,
@@ -76,19 +76,19 @@ impl Flat {
             height: 1.0,
             reach: 0.0,
         };
-        flat.frame(min, max);
+        flat.frame(min, max, aspect);
         flat
     }
 
-    /// Shows all of a box.
-    pub fn frame(&mut self, min: Vec3, max: Vec3) {
+    /// Shows all of a box, in a picture that is so many times as wide as high.
+    pub fn frame(&mut self, min: Vec3, max: Vec3, aspect: f32) {
         let half = (max - min).max(Vec3::ZERO) * 0.5;
         let [right, up, ahead] = self.side.axes();
         self.reach += (self.center - (min + max) * 0.5).dot(ahead).abs();
         self.reach = self.reach.max(half.length()).max(LEAST_REACH);
         self.center = (min + max) * 0.5;
-        // Pictures are seldom higher than wide: what fits the height fits the width then.
-        let extent = half.dot(right.abs()).max(half.dot(up.abs()));
+        // A wide picture is taken as a square one, so that the same box is as large in it from all sides.
+        let extent = (half.dot(right.abs()) / aspect.min(1.0)).max(half.dot(up.abs()));
         self.height = (2.2 * extent).max(1e-3);
     }
 
@@ -131,7 +131,7 @@ mod tests {
     fn a_box_fills_the_picture_and_depth_does_not_matter() {
         let (min, max) = (Vec3::new(-2.0, 0.0, -4.0), Vec3::new(2.0, 3.0, 4.0));
         for side in Side::ALL {
-            let mut flat = Flat::of_box(side, min, max);
+            let mut flat = Flat::of_box(side, min, max, 1.0);
             let clip = |flat: &Flat| flat.view().projection(1.0) * flat.view().view;
             for corner in 0..8 {
                 let part = |bit: u32, axis: usize| {
@@ -156,8 +156,19 @@ mod tests {
             // A picture is two units high; down on the screen is down in the picture.
             assert!((after.x - before.x - 0.5).abs() < 2e-3, "{side:?}");
             assert!((after.y - before.y - 0.25).abs() < 2e-3, "{side:?}");
+            for aspect in [0.4, 0.75, 1.6] {
+                let flat = Flat::of_box(side, min, max, aspect);
+                let clip = flat.view().projection(aspect) * flat.view().view;
+                for at in [min, max] {
+                    let seen = clip.project_point3(at);
+                    assert!(
+                        seen.x.abs() < 1.0 && seen.y.abs() < 1.0,
+                        "{side:?} {aspect}"
+                    );
+                }
+            }
             flat.zoom(1.0);
-            let height = Flat::of_box(side, min, max).height;
+            let height = Flat::of_box(side, min, max, 1.0).height;
             assert!((flat.height - 0.9 * height).abs() < 1e-5 * height);
         }
     }

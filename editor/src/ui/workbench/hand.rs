@@ -238,6 +238,27 @@ impl Workbench {
 
     /// Runs a line as scene script on the scene on screen. `None` where there is no scene.
     pub fn evaluate(&mut self, line: &str) -> Option<Evaluated> {
+        let before = self.text_of_scene()?;
+        let what = say!("history.console", line = line.trim());
+        self.as_moment("console", &what, |this| {
+            let evaluated = this.evaluate_now(line);
+            // A line without a value has set something that scripts remember.
+            let is_silent = |it: &Evaluated| matches!(it.result, Ok(None)) && it.printed.is_empty();
+            let works = evaluated.as_ref().is_some_and(|it| it.result.is_ok());
+            let silent = evaluated.as_ref().is_some_and(is_silent);
+            let changed = silent || works && this.text_of_scene() != Some(before);
+            (evaluated, changed)
+        })
+    }
+
+    /// The scene on screen as its file would have it; `None` where there is none, empty where it has no
+    /// words for something.
+    fn text_of_scene(&mut self) -> Option<String> {
+        let scene = self.scenes.scene_mut()?;
+        Some(scene.to_text().unwrap_or_default())
+    }
+
+    fn evaluate_now(&mut self, line: &str) -> Option<Evaluated> {
         let scene = self.scenes.scene_mut()?;
         let result = scene.evaluate(line);
         let printed = scene.take_log();

@@ -4,27 +4,37 @@ use lightbench::render::overlay::Lines;
 use lightbench::world::MeshRenderer;
 
 use super::Workbench;
+use super::viewports::Viewport;
 
 impl Workbench {
-    /// Chooses the lines over the picture: of all objects, or of those that are chosen alone.
-    pub fn draw_lines(&mut self, edges: bool, normals: bool, chosen_alone: bool) {
-        let rows = chosen_alone.then(|| self.chosen_rows());
-        let wanted = (edges || normals).then_some(Lines {
+    /// Chooses the lines over a viewport's picture: of all objects, or of those that are chosen alone.
+    pub fn draw_lines(
+        &mut self,
+        viewport: Viewport,
+        edges: bool,
+        normals: bool,
+        chosen_alone: bool,
+    ) {
+        let shown = edges || normals;
+        let rows = (chosen_alone && shown).then(|| self.chosen_rows());
+        let wanted = shown.then_some(Lines {
             edges,
             normals,
             rows,
         });
-        if self.lines != wanted {
-            self.lines.clone_from(&wanted);
-            self.renderer.overlay().ask(&self.files, wanted);
-            self.canvas.repeat();
+        let series = viewport.series();
+        if self.lines[series] != wanted {
+            self.lines[series].clone_from(&wanted);
+            self.renderer.overlay().ask_in(series, &self.files, wanted);
+            self.canvas_of_mut(viewport).repeat();
         }
     }
 
-    /// The lines over the picture as they were last drawn, colours multiplied by alpha.
-    pub fn lines_picture(&mut self) -> Option<wgpu::Texture> {
-        self.lines.as_ref()?;
-        self.renderer.overlay().picture().cloned()
+    /// The lines over a viewport's picture as they were last drawn, colours multiplied by alpha.
+    pub fn lines_picture(&mut self, viewport: Viewport) -> Option<wgpu::Texture> {
+        let series = viewport.series();
+        self.lines[series].as_ref()?;
+        self.renderer.overlay().picture_of(series).cloned()
     }
 
     fn chosen_rows(&self) -> Vec<u32> {

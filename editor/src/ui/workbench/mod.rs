@@ -8,10 +8,12 @@
 mod assets;
 pub mod beside;
 pub mod camera;
+mod canvas;
 pub mod clock;
 pub mod comparing;
 pub mod compiling;
 mod drawing;
+mod entering;
 pub mod extent;
 pub mod fields;
 pub mod flat;
@@ -21,6 +23,7 @@ pub mod library;
 pub mod lighting;
 mod lines;
 pub mod log;
+mod looking;
 pub mod measuring;
 pub mod notebook;
 pub mod opening;
@@ -31,10 +34,12 @@ pub mod probing;
 mod project;
 pub mod reporting;
 pub mod resolution;
+mod resuming;
 mod returning;
 mod running;
 pub mod saving;
 pub mod scenes;
+pub mod second;
 pub mod selection;
 mod setting;
 pub mod sight;
@@ -44,6 +49,8 @@ pub mod timing;
 pub mod trends;
 pub mod undo;
 mod viewing;
+pub mod viewports;
+pub mod views;
 mod watching;
 
 use std::collections::BTreeMap;
@@ -54,14 +61,13 @@ use lightbench::assets::files::Files;
 use lightbench::render::overlay::OVERLAY_SHADERS;
 use lightbench::render::problem::Problems;
 use lightbench::render::{FrameStatistics, Gpu, GpuOptions, Problem, Renderer, View, inspect};
-use lightbench::script::SceneEvent;
 use lightbench::script::overlays::Overlays;
 
 use self::beside::Beside;
 use self::camera::CameraRig;
+use self::canvas::Canvas;
 use self::clock::Clock;
 use self::comparing::Comparing;
-use self::drawing::Canvas;
 use self::history::History;
 use self::library::Library;
 use self::lighting::Lighting;
@@ -73,13 +79,17 @@ use self::play::Before;
 use self::probing::Probing;
 use self::reporting::{Reporting, WorkerOptions};
 use self::resolution::Resolution;
-use self::scenes::{Loaded, Scenes};
+use self::resuming::Saved;
+use self::scenes::Scenes;
+use self::second::Second;
 use self::selection::Selection;
 use self::stepping::Stop;
 use self::timing::Timings;
 use self::trends::Trends;
 use self::undo::Undo;
 use self::viewing::Arriving;
+use self::viewports::Viewport;
+use self::views::Views;
 use self::watching::{Touched, Watch};
 use super::EditorOptions;
 use crate::ui::messages::say;
@@ -103,8 +113,10 @@ pub struct Workbench {
     gpu_options: GpuOptions,
     /// What lies over the scripts of the scenes, by their names.
     overlays: BTreeMap<String, Overlays>,
+    /// What lay over them when they were saved.
+    saved: Saved,
     /// What stop gives back.
-    before: Option<Before>,
+    before: Option<Arc<Before>>,
     /// Whether a mistake that is shown came up while time ran.
     ran_into_a_problem: bool,
     /// What to call the next moment in the history.
@@ -119,8 +131,15 @@ pub struct Workbench {
     worker: WorkerOptions,
     /// Where in the frame the picture stops.
     stop: Option<Stop>,
-    /// The lines over the picture.
-    lines: Option<lightbench::render::overlay::Lines>,
+    /// The lines over the pictures, by series.
+    lines: [Option<lightbench::render::overlay::Lines>; 2],
+    focus: Viewport,
+    /// Which viewport has drawn last.
+    last_drawn: Viewport,
+    /// Whether the first viewport can be seen.
+    first_is_seen: bool,
+    /// The second viewport.
+    pub second: Second,
     /// How the values of the target that is looked at spread.
     pub measuring: Measuring,
     /// The light at the probed pixel.
@@ -137,7 +156,7 @@ pub struct Workbench {
     pub scenes: Scenes,
     /// What can be chosen.
     pub library: Library,
-    /// Where the picture is seen from.
+    /// Where the first viewport's picture is seen from.
     pub camera: CameraRig,
     /// The scene's time.
     pub clock: Clock,
@@ -153,6 +172,8 @@ pub struct Workbench {
     pub history: History,
     /// What can be taken back.
     pub undo: Undo,
+    /// What was looked at.
+    pub views: Views,
     /// A second pipeline beside the first.
     pub comparing: Comparing,
     /// The report that is being made.
@@ -200,19 +221,25 @@ impl Workbench {
             probing: Probing::default(),
             history: History::default(),
             undo: Undo::default(),
+            views: Views::default(),
             comparing: Comparing::default(),
             reporting: Reporting::default(),
             notebook: Notebook::default(),
             arriving: None,
             worker: options.worker,
             overlays: BTreeMap::new(),
+            saved: Saved::new(),
             before: None,
             ran_into_a_problem: false,
             noted_time: None,
             noted_view: None,
             watched_camera: None,
             stop: None,
-            lines: None,
+            lines: [None, None],
+            focus: Viewport::First,
+            last_drawn: Viewport::First,
+            first_is_seen: true,
+            second: Second::default(),
             measuring: Measuring::default(),
             lighting: Lighting::default(),
             beside: Beside::default(),
@@ -244,11 +271,12 @@ impl Workbench {
         );
         self.move_other();
         self.canvas = Canvas::default();
+        self.second.forget_pictures();
         self.probing = Probing::default();
         self.measuring = Measuring::default();
         self.beside = Beside::default();
         // Asked for again with the next frame.
-        self.lines = None;
+        self.lines = [None, None];
         self.timings.reset();
         self.lost = None;
         self.inspect(request);
@@ -276,24 +304,33 @@ impl Workbench {
 
     /// Swaps the pipeline; scene, camera and time stay.
     pub fn select_pipeline(&mut self, name: &str) {
-        let before = self.pipelines.shown().map(str::to_owned);
-        self.pipelines.select(name);
-        self.pipeline_shown(before.as_deref());
-        self.did("pipeline", say!("workbench.the_pipeline", name = name));
+        let what = say!("history.pipeline", name = name);
+        self.as_place("pipeline", &what, false, |this| {
+            let before = this.pipelines.shown().map(str::to_owned);
+            this.pipelines.select(name);
+            this.pipeline_shown(before.as_deref());
+            this.did("pipeline", say!("workbench.the_pipeline", name = name));
+        });
     }
 
     /// Loads another scene; until it is ready the present one stays.
     pub fn select_scene(&mut self, name: &str) {
-        self.arriving = None;
-        self.scenes.select(name, None);
-        self.scenes.poll();
-        self.did("scene", say!("workbench.the_scene", name = name));
+        let what = say!("history.scene", name = name);
+        self.as_place("scene", &what, true, |this| {
+            this.arriving = None;
+            this.scenes.select(name, None);
+            this.scenes.poll();
+            this.did("scene", say!("workbench.the_scene", name = name));
+        });
     }
 
     /// All mistakes that keep the newest state off the screen.
     pub fn problems(&self) -> impl Iterator<Item = &Problem> {
         let sources = [self.scenes.problems(), self.pipelines.problems()];
-        let drawing = self.canvas.problem.as_slice().iter();
+        let canvases = Viewport::ALL.map(|viewport| self.canvas_of(viewport));
+        let drawing = canvases
+            .into_iter()
+            .filter_map(|canvas| canvas.problem.as_ref());
         sources
             .into_iter()
             .flatten()
@@ -302,31 +339,9 @@ impl Workbench {
             .chain(self.comparing.problems())
     }
 
-    /// Chooses a target to look at, or none.
-    pub fn inspect(&mut self, request: Option<inspect::Inspection>) {
-        self.renderer.inspector().look(&self.files, request);
-        self.canvas.invalidate();
-    }
-
     /// The cost of the last frame.
     pub fn statistics(&self) -> &FrameStatistics {
         &self.canvas.statistics
-    }
-
-    /// What is being looked at.
-    pub fn inspection(&mut self) -> Option<inspect::Inspection> {
-        self.renderer.inspector().request().cloned()
-    }
-
-    /// The texture of a target of the pipeline on screen.
-    pub fn target_texture(&mut self, name: &str) -> Option<wgpu::Texture> {
-        let targets = self.pipelines.shown_pipeline()?.targets()?;
-        Some(targets.get(name)?.texture.clone())
-    }
-
-    /// The picture of what is being looked at.
-    pub fn inspected(&mut self) -> Option<wgpu::Texture> {
-        self.renderer.inspector().picture().cloned()
     }
 
     /// Reads and builds everything again.
@@ -380,6 +395,7 @@ impl Workbench {
         }
         self.follow_camera();
         self.note_camera();
+        self.travel();
         if let Some(scene) = self.scenes.scene() {
             self.selection.refresh(scene, self.scenes.swaps());
         }
@@ -406,7 +422,7 @@ impl Workbench {
         if paths.iter().any(looks) {
             self.renderer.overlay().forget_shaders();
             // What could not be drawn is asked for again.
-            self.lines = None;
+            self.lines = [None, None];
             self.renderer.inspector().forget_shaders();
             self.comparing.forget_shaders();
             self.canvas.invalidate();
@@ -443,79 +459,6 @@ impl Workbench {
             }
         }
         self.pipeline_shown(before.as_deref());
-    }
-
-    fn take_scene(&mut self) {
-        match self.scenes.poll() {
-            None => {}
-            Some(Loaded::Failed(problems)) => {
-                self.arriving = None;
-                self.log_problems(&problems);
-            }
-            Some(Loaded::Scene { again }) => self.new_scene(again),
-        }
-    }
-
-    fn new_scene(&mut self, again: bool) {
-        // A view begins at the beginning.
-        let again = again && !self.is_arriving();
-        self.renderer.reset_scene();
-        self.comparing.wait_no_more();
-        self.timings = Timings::default();
-        let name = self.scenes.shown().unwrap_or_default().to_owned();
-        let Some(scene) = self.scenes.scene_mut() else {
-            return;
-        };
-        self.timings.stepped(scene.system_times());
-        let animated = scene.moves();
-        self.ran_into_a_problem = false;
-        if let Some(overlays) = self.overlays.get_mut(&name) {
-            overlays.lay_on(scene);
-        }
-        if again {
-            // Who works on a file has chosen what to look through.
-            scene.take_pipeline_choice();
-
-            self.clock.refresh();
-            self.play_goes_on();
-        } else {
-            self.before = None;
-            // Its camera is another one, which nobody moved.
-            self.noted_view = None;
-            self.watched_camera = None;
-            // Names are those of another scene's entities.
-            self.undo.clear();
-            self.clock.rewind();
-            self.clock.playing = animated;
-            self.camera.reset();
-            self.follow_camera();
-            if let Some(distance) = self.typical_distance() {
-                self.camera.suit(distance);
-            }
-            if self.is_arriving() {
-                self.begin_arrival();
-            } else {
-                self.follow_pipeline_choice();
-            }
-        }
-        self.canvas.invalidate();
-    }
-
-    /// Tells the scene's scripts what happens in the viewport.
-    pub fn happen(&mut self, event: SceneEvent) {
-        if let Some(scene) = self.scenes.scene_mut() {
-            scene.happen(event);
-        }
-    }
-
-    fn follow_camera(&mut self) {
-        let Some(scene) = self.scenes.scene_mut() else {
-            return;
-        };
-        scene.refresh();
-        let first = View::from_world(&scene.world).unwrap_or_default();
-        let home = self.watched_view().unwrap_or(first);
-        self.camera.follow(home);
     }
 
     fn log_problems(&mut self, problems: &Problems) {

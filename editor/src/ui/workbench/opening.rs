@@ -35,8 +35,11 @@ impl Workbench {
         let path = self.files.grant(file).map_err(|error| error.to_string())?;
         self.scenes.use_files(self.files.clone());
         if is_model {
-            self.select_scene(SHOWROOM);
-            self.set_scene_parameter("model", Some(path.into()));
+            let what = say!("history.model", path = file.display());
+            self.as_place("scene", &what, true, |this| {
+                this.select_scene(SHOWROOM);
+                this.change_scene_parameter("model", Some(path.into()));
+            });
             return Ok(());
         }
         let folder = file.parent().and_then(Path::file_name);

@@ -121,9 +121,33 @@ impl Pipelines {
         }
     }
 
+    /// Gives back the memory that all pipelines hold for the pictures of a series.
+    pub fn release_series(&mut self, series: usize) {
+        for slot in self.slots.values_mut() {
+            let built = slot.next.iter_mut().chain(&mut slot.pipeline);
+            built.for_each(|pipeline| pipeline.release_series(series));
+        }
+    }
+
     /// A visited pipeline.
     pub fn slot(&self, name: &str) -> Option<&Slot> {
         self.slots.get(name)
+    }
+
+    /// Values that somebody gave to the parameters of pipelines, by the names of these.
+    pub fn all_settings(&self) -> impl Iterator<Item = (&str, &Settings)> {
+        let all = self.slots.iter().map(|(name, slot)| (name, &slot.settings));
+        let all = all.filter(|(_, settings)| !settings.is_empty());
+        all.map(|(name, settings)| (name.as_str(), settings))
+    }
+
+    /// Gives values to the parameters of a pipeline, for when it is chosen next.
+    pub fn remember(&mut self, name: &str, settings: Settings) {
+        let slot = self.slots.entry(name.to_owned()).or_default();
+        if slot.settings != settings {
+            slot.settings = settings;
+            slot.stale = true;
+        }
     }
 
     /// The mistakes of the selected pipeline, if it has any.

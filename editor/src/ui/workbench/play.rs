@@ -1,5 +1,7 @@
 //! Play, pause, step and stop. What plays is a copy: stop gives back what there was before.
 
+use std::sync::Arc;
+
 use lightbench::script::SceneSnapshot;
 use lightbench::script::overlays::Overlays;
 
@@ -8,6 +10,7 @@ use super::clock::Clock;
 use crate::ui::messages::say;
 
 /// The scene as it was when time began to run.
+#[derive(Debug)]
 pub(super) struct Before {
     scene: SceneSnapshot,
     clock: Clock,
@@ -18,26 +21,40 @@ pub(super) struct Before {
 impl Workbench {
     /// Lets time run, or holds it.
     pub fn play_or_pause(&mut self) {
-        self.clock.playing = !self.clock.playing;
-        let what = if self.clock.playing {
-            say!("play.the_frame_from_which_time_runs")
-        } else {
-            say!("play.the_frame_at_which_time_was")
+        let (name, words) = match self.clock.playing {
+            true => ("pause", say!("history.pause")),
+            false => ("play", say!("history.play")),
         };
-        self.did("time", what);
+        self.as_moment(name, words, |this| {
+            this.clock.playing = !this.clock.playing;
+            let what = if this.clock.playing {
+                say!("play.the_frame_from_which_time_runs")
+            } else {
+                say!("play.the_frame_at_which_time_was")
+            };
+            this.did("time", what);
+            ((), true)
+        });
     }
 
     /// One step further in time.
     pub fn step(&mut self) {
-        self.clock.playing = false;
-        self.clock.step();
-        self.noted_time = Some(say!("play.one_step_further"));
+        self.as_moment("step", say!("history.step"), |this| {
+            this.clock.playing = false;
+            this.clock.step();
+            this.noted_time = Some(say!("play.one_step_further"));
+            ((), true)
+        });
     }
 
     /// Back to the beginning of time. The scene goes on from where it is.
     pub fn rewind(&mut self) {
-        self.clock.rewind();
-        self.did("time", say!("play.the_beginning_of_time"));
+        self.as_moment("rewind", say!("history.rewind"), |this| {
+            let before = this.clock.time();
+            this.clock.rewind();
+            this.did("time", say!("play.the_beginning_of_time"));
+            ((), before != 0.0)
+        });
     }
 
     /// Whether there is something to go back to with [`Workbench::stop`].
@@ -48,6 +65,17 @@ impl Workbench {
     /// Gives back the world, what scripts remember and the time as they were when time began to run.
     /// What was changed by hand meanwhile lies over that too.
     pub fn stop(&mut self) {
+        if self.before.is_none() {
+            self.clock.playing = false;
+            return;
+        }
+        self.as_moment("stop", say!("history.stop"), |this| {
+            this.go_back_to_before();
+            ((), true)
+        });
+    }
+
+    fn go_back_to_before(&mut self) {
         self.clock.playing = false;
         let Some(before) = self.before.take() else {
             return;
@@ -79,10 +107,12 @@ impl Workbench {
         if self.before.is_some() {
             return;
         }
-        self.before = self.scenes.scene().map(|scene| Before {
-            scene: scene.snapshot(),
-            clock,
-            overlays: self.overlays_now().cloned().unwrap_or_default(),
+        self.before = self.scenes.scene().map(|scene| {
+            Arc::new(Before {
+                scene: scene.snapshot(),
+                clock,
+                overlays: self.overlays_now().cloned().unwrap_or_default(),
+            })
         });
     }
 

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use lightbench::assets::files::Files;
 
+use super::notebook::Notebook;
+use super::reporting::WorkerOptions;
 use super::watching::{Touched, Watch};
 use super::{Wake, Workbench};
 
@@ -17,7 +19,9 @@ impl Workbench {
         let files = Files::with_project(folder).map_err(|error| error.to_string())?;
         // What was done by hand was done to the scenes of the former one.
         self.overlays.clear();
-        self.undo.clear();
+        self.saved.clear();
+        self.forget_views();
+        self.notebook = Notebook::default();
         self.watch = Watch::start(&files, &self.wake, &mut self.log);
         self.use_files(files);
         let compiler = self.renderer.compiler();
@@ -27,9 +31,10 @@ impl Workbench {
         // Files outside of the former project have other numbers now.
         let scene = self.scenes.selected();
         if scene.starts_with('@') || !self.has_scene(scene) {
-            self.select_scene("atrium");
+            self.quietly(|this| this.select_scene("atrium"));
         }
         self.reload();
+        self.undo.begin_anew();
         Ok(())
     }
 
@@ -47,6 +52,11 @@ impl Workbench {
     /// Who is told when a thread has finished something.
     pub(in crate::ui) fn wake(&self) -> &Wake {
         &self.wake
+    }
+
+    /// How processes of the program are started.
+    pub(in crate::ui) fn worker(&self) -> &WorkerOptions {
+        &self.worker
     }
 
     /// Whether changes of the project's files are noticed.

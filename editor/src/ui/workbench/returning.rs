@@ -5,6 +5,7 @@ use std::time::Instant;
 use lightbench::render::GpuError;
 
 use super::Workbench;
+use super::viewports::Viewport;
 use crate::ui::messages::say;
 
 impl Workbench {
@@ -13,6 +14,8 @@ impl Workbench {
             Ok(results) => {
                 let mut results = results.to_vec();
                 self.measured_beside(&mut results);
+                let now = Instant::now();
+                self.measured_second(&mut results, now);
                 if let Some((mine, grew)) = self.comparing.take_measured(&results) {
                     results = mine;
                     if grew {
@@ -25,13 +28,13 @@ impl Workbench {
                 {
                     self.canvas.invalidate();
                 }
-                let beside = self.comparing.beside_ms();
                 for measured in results {
                     if self.timings.measured(measured) {
-                        self.trends.measured(Instant::now(), measured);
+                        self.trends.measured(now, measured);
                     }
                     if let Some((scale, ms)) = self.canvas.measured(measured) {
-                        self.resolution.measured(scale, ms + beside);
+                        let ms = ms + self.comparing.beside_ms();
+                        self.guide_resolution(Viewport::First, scale, ms, now);
                     }
                 }
             }
@@ -43,6 +46,20 @@ impl Workbench {
         for warning in self.renderer.take_warnings() {
             self.log.warn(warning);
         }
+    }
+
+    /// Takes note of the milliseconds that a viewport's frame took. Where the other one moves too, its
+    /// frames must fit into the same time.
+    pub(super) fn guide_resolution(
+        &mut self,
+        viewport: Viewport,
+        scale: f32,
+        ms: f64,
+        now: Instant,
+    ) {
+        let other = self.canvas_of(viewport.other());
+        let other = other.cost_at(scale).filter(|_| other.is_moving(now));
+        self.resolution.measured(scale, ms + other.unwrap_or(0.0));
     }
 
     pub(super) fn device_failed(&mut self, error: GpuError) {

@@ -46,6 +46,7 @@ impl Workbench {
             let written = self.files.write(&path, text.as_bytes());
             written.map_err(|error| error.to_string())?
         };
+        self.was_saved();
         self.log
             .info(say!("saving.saved_as", file = file.display()));
         if update {

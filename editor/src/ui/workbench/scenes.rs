@@ -120,6 +120,17 @@ impl Scenes {
         self.settings.get(&self.selected)
     }
 
+    /// Values that somebody gave to the parameters of scenes, by the names of these.
+    pub fn all_settings(&self) -> impl Iterator<Item = (&str, &Settings)> {
+        let all = self.settings.iter().filter(|(_, all)| !all.is_empty());
+        all.map(|(name, settings)| (name.as_str(), settings))
+    }
+
+    /// Gives values to the parameters of a scene, for when it is loaded next.
+    pub fn remember(&mut self, name: &str, settings: Settings) {
+        self.settings.insert(name.to_owned(), settings);
+    }
+
     /// How far a load is, if one runs.
     pub fn loading(&self) -> Option<LoadingState> {
         let loading = self.loading.as_ref()?;

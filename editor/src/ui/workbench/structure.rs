@@ -70,9 +70,10 @@ impl Workbench {
     /// # Errors
     /// A sentence that says why it can't be. Then nothing has changed.
     pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
+        let chosen = self.names_chosen();
         let edit = self.do_edit(edit)?;
         let what = edit.words();
-        self.note_structure(what, vec![done(edit)]);
+        self.note_structure(what, vec![done(edit)], chosen);
         Ok(())
     }
 
@@ -82,8 +83,9 @@ impl Workbench {
     /// As [`Workbench::edit`].
     pub fn create(&mut self, kind: NewKind) -> Result<(), String> {
         let place = match kind {
-            NewKind::Camera if self.camera.flat().is_none() => {
-                let to_world = Affine3A::from_mat4(self.camera.view().view.inverse());
+            NewKind::Camera if self.camera_of(self.focus()).flat().is_none() => {
+                let to_world =
+                    Affine3A::from_mat4(self.camera_of(self.focus()).view().view.inverse());
                 let (_, rotation, translation) = to_world.to_scale_rotation_translation();
                 Transform {
                     rotation,
@@ -92,10 +94,10 @@ impl Workbench {
                 }
             }
             NewKind::SpotLight | NewKind::DirectionalLight => {
-                let at = self.camera.pivot();
+                let at = self.camera_of(self.focus()).pivot();
                 Transform::looking_at(at, at + Vec3::NEG_Y, Vec3::Y)
             }
-            _ => Transform::from_translation(self.camera.pivot()),
+            _ => Transform::from_translation(self.camera_of(self.focus()).pivot()),
         };
         self.edit(Edit::Create {
             kind,
@@ -171,6 +173,7 @@ impl Workbench {
                 places.push((entity, old, local));
             }
         }
+        let chosen = self.names_chosen();
         let edit = self.do_edit(Edit::Parent { of, to: to_who })?;
         let what = edit.words();
         let mut changes = vec![done(edit)];
@@ -198,7 +201,7 @@ impl Workbench {
                 }
             }
         }
-        self.note_structure(what, changes);
+        self.note_structure(what, changes, chosen);
         Ok(())
     }
 
@@ -315,6 +318,7 @@ impl Workbench {
             self.history.add("", edit.words(), Script::Scene, line);
         }
         self.canvas.invalidate();
+        self.absorb_view();
         Ok(edit)
     }
 
@@ -365,10 +369,18 @@ impl Workbench {
         self.undo.note(edit.words(), vec![done(edit)]);
     }
 
-    fn note_structure(&mut self, what: String, changes: Vec<Change>) {
+    fn note_structure(&mut self, what: String, changes: Vec<Change>, chosen: Vec<String>) {
         self.undo.seal();
-        self.undo.note(what, changes);
+        self.undo.note_with(what, changes, chosen);
         self.undo.seal();
+    }
+
+    /// The names of what is chosen, of those that have one.
+    fn names_chosen(&self) -> Vec<String> {
+        let chosen: Vec<Entity> = self.selection.entities().collect();
+        let mut names = self.names_of(&chosen);
+        names.retain(|name| !name.is_empty());
+        names
     }
 }
 

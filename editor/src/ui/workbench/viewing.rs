@@ -7,7 +7,7 @@ use lightbench::script::Settings;
 
 use super::Workbench;
 use super::pipelines::Pipelines;
-use super::sight::Sight;
+use super::viewports::Viewport;
 use crate::ui::messages::say;
 use crate::viewpoint::moment::Steps;
 use crate::viewpoint::{Eye, Viewpoint};
@@ -17,26 +17,53 @@ const SLICE: Duration = Duration::from_millis(12);
 
 /// The way to a view that was asked for.
 pub(super) struct Arriving {
-    camera: Eye,
-    steps: Steps,
+    pub(super) camera: Eye,
+    /// The viewport that it is for.
+    pub(super) viewport: Viewport,
+    pub(super) steps: Steps,
     /// Whether its scene is on screen.
-    is_there: bool,
+    pub(super) is_there: bool,
+    /// Whether time runs on from there.
+    pub(super) then_plays: bool,
 }
 
 impl Workbench {
-    /// What is on the screen; `None` before the first picture. Of two pipelines it has A.
+    /// What is on the screen; `None` before the first picture. Of two pipelines it has A, of two
+    /// viewports the first.
     pub fn viewpoint(&self) -> Option<Viewpoint> {
-        self.viewpoint_of(&self.pipelines)
+        self.viewpoint_in(Viewport::First)
+    }
+
+    /// The same of a viewport.
+    pub fn viewpoint_in(&self, viewport: Viewport) -> Option<Viewpoint> {
+        self.viewpoint_of(&self.pipelines, viewport)
     }
 
     /// The same with B, while two pipelines are compared.
     pub fn other_viewpoint(&self) -> Option<Viewpoint> {
         let side = self.comparing.side().filter(|_| self.comparing.is_on())?;
-        self.viewpoint_of(&side.pipelines)
+        self.viewpoint_of(&side.pipelines, Viewport::First)
     }
 
-    fn viewpoint_of(&self, pipelines: &Pipelines) -> Option<Viewpoint> {
-        let pipeline = pipelines.shown()?;
+    fn viewpoint_of(&self, pipelines: &Pipelines, viewport: Viewport) -> Option<Viewpoint> {
+        let size = self.canvas_of(viewport).drawn?.size;
+        self.viewpoint_with(pipelines, pipelines.shown()?, viewport, size)
+    }
+
+    /// What there is to see, also where no picture of it can be drawn.
+    pub(super) fn view_to_keep(&self) -> Option<Viewpoint> {
+        let viewport = Viewport::First;
+        let size = self.canvas.drawn.map_or((640, 360), |drawn| drawn.size);
+        self.viewpoint_with(&self.pipelines, self.pipelines.selected(), viewport, size)
+    }
+
+    fn viewpoint_with(
+        &self,
+        pipelines: &Pipelines,
+        pipeline: &str,
+        viewport: Viewport,
+        size: (u32, u32),
+    ) -> Option<Viewpoint> {
         let settings = pipelines.slot(pipeline).map(|slot| slot.settings.clone());
         let scene = self.scenes.shown()?;
         let scene_settings = self
@@ -48,9 +75,9 @@ impl Workbench {
             scene_settings: self.outside_by_path(scene_settings.cloned().unwrap_or_default()),
             pipeline: pipeline.to_owned(),
             pipeline_settings: settings.unwrap_or_default(),
-            camera: self.eye(),
+            camera: self.eye(viewport),
             time: self.clock.time(),
-            size: self.viewport_size()?,
+            size,
         })
     }
 
@@ -68,14 +95,17 @@ impl Workbench {
         shown
     }
 
-    fn eye(&self) -> Eye {
-        if let Some(flat) = self.camera.flat() {
+    /// From where the scene is seen in a viewport.
+    pub(super) fn eye(&self, viewport: Viewport) -> Eye {
+        let camera = self.camera_of(viewport);
+        if let Some(flat) = camera.flat() {
             return Eye::Side(*flat);
         }
-        if self.camera.is_moved() {
-            return Eye::Free(self.camera.free());
+        if camera.is_moved() {
+            return Eye::Free(camera.free());
         }
-        self.watched_camera.clone().map_or(Eye::Scene, Eye::Named)
+        let watched = self.watched_camera_of(viewport).clone();
+        watched.map_or(Eye::Scene, Eye::Named)
     }
 
     /// What a view in words leaves out of what is on the screen, in a sentence.
@@ -84,11 +114,17 @@ impl Workbench {
         (changed > 0).then(|| say!("viewing.the_view_has_the_scene_as", changed = changed))
     }
 
-    /// Goes to a view: loads its scene anew, swaps to its pipeline and moves time and camera there.
+    /// Goes to a view: loads its scene anew, swaps to its pipeline and moves time there, and the camera
+    /// of the viewport that has the focus.
     ///
     /// # Errors
     /// A sentence, where the view names a file outside of the project that nobody has opened.
     pub fn go_to(&mut self, view: &Viewpoint) -> Result<(), String> {
+        let what = say!("history.view", scene = view.scene);
+        self.as_place("view", &what, true, |this| this.go_to_now(view))
+    }
+
+    fn go_to_now(&mut self, view: &Viewpoint) -> Result<(), String> {
         let scene = self.known(&view.scene)?;
         let pipeline = self.known(&view.pipeline)?;
         let mut settings = Settings::new();
@@ -107,8 +143,10 @@ impl Workbench {
         self.clock.playing = false;
         self.arriving = Some(Arriving {
             camera: view.camera.clone(),
+            viewport: self.focus(),
             steps: Steps::to(view.time),
             is_there: false,
+            then_plays: false,
         });
         self.scenes.select(&scene, Some(settings));
         self.scenes.poll();
@@ -146,20 +184,15 @@ impl Workbench {
             return;
         };
         arriving.is_there = true;
-        let camera = arriving.camera.clone();
+        let (camera, viewport) = (arriving.camera.clone(), arriving.viewport);
         self.clock.playing = false;
-        match camera {
-            Eye::Scene => self.reset_camera(),
-            Eye::Named(name) => {
-                if !self.cameras().contains(&name) {
-                    self.log
-                        .error(say!("viewing.the_view_is_through_the_camera", name = name));
-                }
-                self.look_through(Sight::Camera(name));
-            }
-            Eye::Free(free) => self.camera.stand(free),
-            Eye::Side(flat) => self.camera.show_flat(flat),
+        if let Eye::Named(name) = &camera
+            && !self.cameras().contains(name)
+        {
+            self.log
+                .error(say!("viewing.the_view_is_through_the_camera", name = name));
         }
+        self.look_with(viewport, camera);
     }
 
     /// Goes some steps on towards the moment of a view.
@@ -171,7 +204,8 @@ impl Workbench {
         while began.elapsed() < SLICE {
             let next = self.arriving.as_mut().and_then(|way| way.steps.next());
             let Some((time, step)) = next else {
-                self.arriving = None;
+                self.clock.playing = self.arriving.take().is_some_and(|way| way.then_plays);
+                self.absorb_view();
                 if let Some(left_out) = self.left_out_of_view() {
                     self.log.warn(left_out);
                 }

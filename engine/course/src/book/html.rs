@@ -84,8 +84,10 @@ pub fn student_page(page: &Page<'_>) -> String {
     document(&title, page.language, &body)
 }
 
+/// A sentence, or the lines of a mistake in a file, in which spaces matter.
 fn note(text: &str) -> String {
-    format!("<p class=\"note\">{}</p>\n", escaped(text))
+    let tag = if text.contains('\n') { "pre" } else { "p" };
+    format!("<{tag} class=\"note\">{}</{tag}>\n", escaped(text))
 }
 
 impl Page<'_> {

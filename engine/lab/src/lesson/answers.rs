@@ -6,6 +6,7 @@ use lightbench_assets::files::Files;
 use lightbench_script::Data;
 use serde::Deserialize;
 
+use super::folders::in_quotes;
 use super::words::Words;
 
 /// The file with a student's answers.
@@ -36,6 +37,53 @@ pub fn read_answers(work: &Files) -> Result<BTreeMap<String, Answer>, Words> {
         let line = before.matches('\n').count() + 1;
         Words::same(format!("{ANSWERS}:{line}: {}", error.message()))
     })
+}
+
+/// A file of answers with another one in it. All other lines stay as they are; the lines that a new
+/// project has for the question, as comments, are replaced.
+#[must_use]
+pub fn write_answer(text: &str, question: &str, answer: &Answer) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let header = format!("[{question}]");
+    let as_comment = format!("# {header}");
+    let is_header = |line: &String| line.trim() == header || line.trim() == as_comment;
+    let at = lines.iter().position(is_header).unwrap_or_else(|| {
+        if lines.last().is_some_and(|line| !line.trim().is_empty()) {
+            lines.push(String::new());
+        }
+        lines.push(header.clone());
+        lines.len() - 1
+    });
+    lines[at] = header;
+    let value = format!("value = {:?}", answer.value);
+    let report = format!("report = {}", in_quotes(&answer.report));
+    let mut place = at + 1;
+    for (name, line) in [("value", value), ("report", report)] {
+        // The table ends where another one begins, or with an empty line.
+        let ends = |line: &String| line.trim().is_empty() || line.trim().starts_with('[');
+        let end = lines[at + 1..].iter().position(ends);
+        let end = end.map_or(lines.len(), |length| at + 1 + length);
+        let sets = |line: &String| {
+            let plain = line.trim_start_matches(['#', ' ', '\t']);
+            let rest = plain.strip_prefix(name).map(str::trim_start);
+            rest.is_some_and(|rest| rest.starts_with('='))
+        };
+        match lines[at + 1..end].iter().position(sets) {
+            Some(index) => {
+                place = at + 1 + index;
+                let unit = lines[place].split_once(" # ").filter(|_| name == "value");
+                lines[place] = match unit {
+                    Some((_, unit)) => format!("{line} # {unit}"),
+                    None => line,
+                };
+            }
+            None => lines.insert(place, line),
+        }
+        place += 1;
+    }
+    let mut text = lines.join("\n");
+    text.push('\n');
+    text
 }
 
 /// A report, as scripts see it.
@@ -70,5 +118,59 @@ fn data(value: serde_json::Value) -> Data {
                 .map(|(name, value)| (name, data(value)))
                 .collect(),
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn answer(value: f64, report: &str) -> Answer {
+        Answer {
+            value,
+            report: report.to_owned(),
+        }
+    }
+
+    fn read(text: &str) -> BTreeMap<String, Answer> {
+        toml::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn answers_take_the_place_of_comments_and_of_earlier_ones() {
+        let new = "# How many?\n# [passes]\n# value = 0.0 # m\n# report = \"reports/passes/report.json\"\n\n\
+                   # And this?\n# [other]\n# value = 0.0\n# report = \"x\"\n\n";
+        let first = write_answer(new, "other", &answer(-3.0, "a \"b\""));
+        assert_eq!(
+            read(&first),
+            [("other".to_owned(), answer(-3.0, "a \"b\""))].into()
+        );
+        let second = write_answer(&first, "passes", &answer(2.75, "r.json"));
+        let third = write_answer(&second, "other", &answer(1e30, "c"));
+        let all = [
+            ("other".to_owned(), answer(1e30, "c")),
+            ("passes".to_owned(), answer(2.75, "r.json")),
+        ];
+        assert_eq!(read(&third), all.into());
+        assert!(third.contains("value = 2.75 # m\n"), "{third}");
+        assert!(third.starts_with("# How many?\n[passes]\n"), "{third}");
+        assert!(third.contains("# And this?\n[other]\n"), "{third}");
+    }
+
+    #[test]
+    fn answers_are_added_to_any_file() {
+        let two = [("a", 1.0), ("b", 2.0)];
+        for text in ["", "# mine", "[a]\n[b]\n", "[b]\nreport = \"x\" # mine\n"] {
+            let written = two.iter().fold(text.to_owned(), |text, (name, value)| {
+                write_answer(&text, name, &answer(*value, "r"))
+            });
+            let all = two.map(|(name, value)| (name.to_owned(), answer(value, "r")));
+            assert_eq!(read(&written), all.into(), "{written}");
+            assert_eq!(
+                text.contains("# mine") && text.starts_with('#'),
+                written.contains("# mine")
+            );
+        }
     }
 }

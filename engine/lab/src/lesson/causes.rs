@@ -13,15 +13,26 @@ use super::words::{Words, number};
 /// A changed expectation must come so much nearer than the right one to be taken for the cause.
 const NEARER: f64 = 0.05;
 
-/// Whether a picture is what a mistake would have given, rather than what it should be.
+/// Whether a picture is what a mistake would have given, rather than what it should be. Only texels of which
+/// something is expected are looked at; a mistake that says nothing of any of them explains nothing.
 pub(super) fn is_explained(
     found: &TargetImage,
+    expected: &Expected,
     by: &Expected,
     bound: Bound,
     distance: f64,
 ) -> bool {
-    let other = compare(found, by, bound);
-    other.error <= 1.0 || other.distance <= NEARER * distance
+    let both = by.texels.iter().zip(&expected.texels);
+    let by = Expected {
+        channels: by.channels,
+        texels: both
+            .map(|(by, expected)| by.filter(|_| expected.is_some()))
+            .collect(),
+    };
+    let other = compare(found, &by, bound);
+    // What is no number is as far from everything.
+    let nearer = other.distance.is_finite() && other.distance <= NEARER * distance;
+    other.compared > 0 && (other.error <= 1.0 || nearer)
 }
 
 /// What the picture itself tells of its mistake.
@@ -50,7 +61,7 @@ pub(super) fn of_picture(
             "Todos los valores son cero: ¿falta por escribir, o algún factor es cero?",
         ));
     }
-    let explained = |by: &Expected| is_explained(found, by, bound, distance);
+    let explained = |by: &Expected| is_explained(found, expected, by, bound, distance);
     let changed = |change: &dyn Fn(f32) -> f32| {
         let texels = expected.texels.iter();
         let changed = texels.map(|texel| texel.map(|texel| texel.map(change)));
@@ -196,6 +207,47 @@ mod tests {
         };
         let distance = compare(found, &expected, BOUND).distance;
         of_picture(found, &expected, BOUND, distance)
+    }
+
+    #[test]
+    fn a_mistake_explains_only_what_it_speaks_of() {
+        let found = image(|x, y| 2.0 * right(x, y));
+        let of =
+            |texel: &dyn Fn(usize, [f32; 4]) -> Option<[f32; 4]>, image: &TargetImage| Expected {
+                channels: 2,
+                texels: (0..64).map(|at| texel(at, image.texels[at])).collect(),
+            };
+        let expected = of(&|at, texel| (at < 32).then_some(texel), &image(right));
+        let distance = compare(&found, &expected, BOUND).distance;
+        let explains = |by: &Expected| is_explained(&found, &expected, by, BOUND, distance);
+        assert!(explains(&of(&|_, texel| Some(texel), &found)));
+        // No number is explained by nothing.
+        let broken = image(|_, _| f32::NAN);
+        let all = of(&|_, texel| Some(texel), &found);
+        assert!(!is_explained(
+            &broken,
+            &expected,
+            &all,
+            BOUND,
+            f64::INFINITY
+        ));
+        // Right about some of them.
+        assert!(explains(&of(
+            &|at, texel| (at < 4).then_some(texel),
+            &found
+        )));
+        // Nothing at all, and nothing but texels that are not judged.
+        assert!(!explains(&of(&|_, _| None, &found)));
+        assert!(!explains(&of(
+            &|at, texel| (at >= 32).then_some(texel),
+            &found
+        )));
+        // Wrong where it counts, right where it does not.
+        let half = of(
+            &|at, texel| Some(texel.map(|v| if at < 32 { 9.0 * v } else { v })),
+            &found,
+        );
+        assert!(!explains(&half));
     }
 
     #[test]

@@ -249,7 +249,7 @@ impl Inner {
         });
         if !verdict.holds {
             let explained = |(_, by): &&(String, Expected)| {
-                causes::is_explained(found, by, bound, comparison.distance)
+                causes::is_explained(found, expected, by, bound, comparison.distance)
             };
             let mistake = mistakes.iter().find(explained);
             self.explain(&mut finding, mistake.map(|(id, _)| id.as_str()))?;

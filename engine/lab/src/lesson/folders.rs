@@ -19,6 +19,18 @@ pub struct LessonOf {
     pub name: String,
     /// The student, if one was named.
     pub id: Option<String>,
+    /// The lesson's folder, where it is none that the program brings along.
+    pub folder: Option<PathBuf>,
+}
+
+impl LessonOf {
+    /// What [`find_lesson`](super::find_lesson) finds the lesson by: its folder while that is there, else its
+    /// name.
+    #[must_use]
+    pub fn asked(&self) -> &str {
+        let folder = self.folder.as_deref().filter(|folder| folder.is_dir());
+        folder.and_then(Path::to_str).unwrap_or(&self.name)
+    }
 }
 
 #[derive(Deserialize)]
@@ -71,6 +83,10 @@ pub fn begin(
     );
     if let Some(student) = student {
         marker += &format!("id = {}\n", in_quotes(student));
+    }
+    let folder = lesson.source.folder();
+    if let Some(folder) = folder.as_deref().and_then(Path::to_str) {
+        marker += &format!("folder = {}\n", in_quotes(folder));
     }
     write_atomic(project.join(PROJECT_MARKER), marker.as_bytes())?;
     Ok(project)

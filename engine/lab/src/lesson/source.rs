@@ -48,6 +48,14 @@ impl Source {
         })
     }
 
+    /// The full path of its folder; `None` for a lesson that the program brings along.
+    #[must_use]
+    pub fn folder(&self) -> Option<PathBuf> {
+        let folder = self.files.project()?.join(&self.root);
+        let folder = std::path::absolute(folder).ok()?;
+        folder.is_dir().then_some(folder)
+    }
+
     /// The path of a file as a person knows it.
     #[must_use]
     pub fn shown(&self, path: &str) -> String {

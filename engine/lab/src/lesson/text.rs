@@ -121,15 +121,24 @@ impl Text {
 /// `var`), or a line with `TASK` and the name.
 #[must_use]
 pub fn has_place(code: &str, name: &str) -> bool {
-    code.lines().any(|line| {
-        let words: Vec<&str> = line
-            .split(|c: char| !c.is_alphanumeric() && c != '_')
-            .collect();
-        words.windows(2).any(|pair| {
-            let declares = ["fn", "const", "let", "struct", "var", "alias", "TASK"];
-            declares.contains(&pair[0]) && pair[1] == name
-        })
-    })
+    place_line(code, name).is_some()
+}
+
+/// The line of such a place, from 1. A line with `TASK` comes before a declaration of the same name.
+#[must_use]
+pub fn place_line(code: &str, name: &str) -> Option<usize> {
+    let first = |declares: &[&str]| {
+        let mut lines = code.lines();
+        let at = lines.position(|line| {
+            let words: Vec<&str> = line
+                .split(|c: char| !c.is_alphanumeric() && c != '_')
+                .collect();
+            let mut pairs = words.windows(2);
+            pairs.any(|pair| declares.contains(&pair[0]) && pair[1] == name)
+        });
+        at.map(|index| index + 1)
+    };
+    first(&["TASK"]).or_else(|| first(&["fn", "const", "let", "struct", "var", "alias"]))
 }
 
 #[cfg(test)]
@@ -182,5 +191,8 @@ echo [no](link)
             assert!(has_place(code, name), "{name}");
         }
         assert!(!has_place(code, "a"));
+        assert_eq!(place_line(code, "diffuse"), Some(2));
+        let code = "fn lambert() {}\n// TASK lambert";
+        assert_eq!(place_line(code, "lambert"), Some(2));
     }
 }

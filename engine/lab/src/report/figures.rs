@@ -1,9 +1,7 @@
 //! The charts of a study as SVG files that stand alone, and as PNG files.
 
-use std::sync::{Arc, LazyLock};
-
 use lightbench_script::{Chart, ChartCurve};
-use resvg::{tiny_skia, usvg};
+use resvg::tiny_skia;
 
 use super::analysis::Analysis;
 use super::html::charts;
@@ -12,11 +10,10 @@ use super::summary::clock_name;
 use crate::LabError;
 use crate::curves::chart;
 use crate::study::Study;
+use crate::svg;
 
 /// Pixels of a PNG file for a unit of its SVG.
 const SHARPNESS: f32 = 2.0;
-/// The family that all text of the PNG files is set in.
-const FAMILY: &str = "Ubuntu";
 
 /// The charts with their files' names.
 pub(super) fn all(study: &Study, analyses: &[Analysis]) -> Vec<(String, String)> {
@@ -108,17 +105,6 @@ fn curve(study: &Study, analyses: &[Analysis], line: &Line, name: &str, label: &
     curve
 }
 
-/// The fonts of the PNG files: the interface's own, so that charts look alike on all machines.
-static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
-    let mut fonts = usvg::fontdb::Database::new();
-    fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
-    // For what that font has no glyphs for.
-    fonts.load_font_data(epaint_default_fonts::HACK_REGULAR.to_vec());
-    fonts.set_sans_serif_family(FAMILY);
-    fonts.set_serif_family(FAMILY);
-    Arc::new(fonts)
-});
-
 /// Draws an SVG chart as a PNG file.
 ///
 /// # Errors
@@ -128,19 +114,8 @@ pub(super) fn png(svg: &str) -> Result<Vec<u8>, LabError> {
         format: "PNG of a chart",
         reason,
     };
-    let options = usvg::Options {
-        fontdb: FONTS.clone(),
-        font_family: FAMILY.into(),
-        ..usvg::Options::default()
-    };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|error| fail(error.to_string()))?;
-    let size = tree.size();
-    let pixels = |length: f32| (length * SHARPNESS).ceil() as u32;
-    let mut map = tiny_skia::Pixmap::new(pixels(size.width()), pixels(size.height()))
-        .ok_or_else(|| fail("the chart is too large".into()))?;
-    map.fill(tiny_skia::Color::WHITE);
-    let scale = tiny_skia::Transform::from_scale(SHARPNESS, SHARPNESS);
-    resvg::render(&tree, scale, &mut map.as_mut());
+    let map = svg::render(svg, SHARPNESS, tiny_skia::Color::WHITE);
+    let map = map.map_err(|error| fail(error.to_string()))?;
     map.encode_png().map_err(|error| fail(error.to_string()))
 }
 

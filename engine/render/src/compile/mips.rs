@@ -71,11 +71,7 @@ impl Compiler {
             state: format!("mips {}", target.format),
         };
         if let Some(pipeline) = self.built.get(&key) {
-            return Ok(PassPipelines::Mips {
-                pipeline,
-                layout,
-                levels: Vec::new(),
-            });
+            return Ok(PassPipelines::Mips { pipeline, layout });
         }
         let pipeline_layout =
             self.gpu
@@ -112,10 +108,6 @@ impl Compiler {
             .map_err(|error| Problem::new(pass.at.clone(), refusal(&error)))?;
         let pipeline = DrawPipeline::new(pipeline, false);
         self.built.insert(key, &pipeline);
-        Ok(PassPipelines::Mips {
-            pipeline,
-            layout,
-            levels: Vec::new(),
-        })
+        Ok(PassPipelines::Mips { pipeline, layout })
     }
 }

@@ -22,7 +22,7 @@ impl Work<'_> {
                 }
             }
             Dispatch::Threads(_) | Dispatch::Groups(_) => {
-                let [x, y, z] = self.pass.workgroups;
+                let [x, y, z] = self.pass.bound.workgroups;
                 compute_pass.dispatch_workgroups(x, y, z);
                 cost.dispatches += 1;
                 cost.workgroups = Some(u64::from(x) * u64::from(y) * u64::from(z));
@@ -42,7 +42,7 @@ impl Work<'_> {
         });
         pipeline.set(&mut compute_pass);
         compute_pass.set_bind_group(0, self.recording.scene, &[0]);
-        if let Some(group) = &self.pass.target_group {
+        if let Some(group) = &self.pass.bound.target_group {
             compute_pass.set_bind_group(1, group, &[]);
         }
         if let Some(parameters) = &self.pass.parameters {

@@ -57,15 +57,13 @@ pub fn measures<'a>(
         match &desc.kind {
             _ if !runs => Measure::Nothing,
             PassKind::Copy { .. } | PassKind::History { .. } => Measure::Nothing,
-            PassKind::Clear if pass.attachments.clears() == 0 => Measure::Nothing,
+            PassKind::Clear if pass.bound.attachments.clears() == 0 => Measure::Nothing,
             PassKind::Shadow(_) => match views(pass, frame) {
                 0 => Measure::Nothing,
                 _ => Measure::Time,
             },
-            PassKind::Mips { .. } => match &pass.pipelines {
-                PassPipelines::Mips { levels, .. } if !levels.is_empty() => Measure::Time,
-                _ => Measure::Nothing,
-            },
+            PassKind::Mips { .. } if pass.bound.levels.is_empty() => Measure::Nothing,
+            PassKind::Mips { .. } => Measure::Time,
             kind if kind.rasterises() => Measure::TimeAndInvocations,
             _ => Measure::Time,
         }
@@ -120,13 +118,8 @@ pub fn record(
             (PassKind::Compute(dispatch), PassPipelines::Compute(pipeline)) => {
                 work.compute(dispatch, pipeline, encoder, &mut cost);
             }
-            (
-                PassKind::Mips { .. },
-                PassPipelines::Mips {
-                    pipeline, levels, ..
-                },
-            ) => {
-                work.mips(pipeline, levels, encoder, &mut cost);
+            (PassKind::Mips { .. }, PassPipelines::Mips { pipeline, .. }) => {
+                work.mips(pipeline, &pass.bound.levels, encoder, &mut cost);
             }
             (PassKind::Shadow(_), PassPipelines::Shadow(pipelines)) => {
                 work.shadow(pipelines, encoder, &mut cost);
@@ -167,6 +160,6 @@ fn coverage(desc: &PassDesc, pass: &CompiledPass, frame: &Frame) -> f64 {
 /// The views that a `shadow` pass draws.
 fn views(pass: &CompiledPass, frame: &Frame) -> usize {
     let list = pass.list.and_then(|list| frame.shadow_lists.get(list));
-    let layers = pass.attachments.layers.len();
+    let layers = pass.bound.attachments.layers.len();
     list.map_or(0, |list| list.views.len().min(layers))
 }

@@ -57,7 +57,7 @@ impl Work<'_> {
         encoder: &mut wgpu::CommandEncoder,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
-        let views = &self.pass.attachments;
+        let views = &self.pass.bound.attachments;
         // Attachments fit in an array, so that recording a pass allocates nothing.
         let mut colors = [const { None }; MAX_COLORS];
         let declared = self.desc.colors.iter().zip(&views.colors);
@@ -121,7 +121,7 @@ impl Work<'_> {
         let format = self.targets.get(&depth.target)?.texture.format();
         // No operations means read-only, which lets shaders sample the same depth.
         Some(wgpu::RenderPassDepthStencilAttachment {
-            view: self.pass.attachments.depth.as_ref()?,
+            view: self.pass.bound.attachments.depth.as_ref()?,
             depth_ops: depth.write.then_some(wgpu::Operations { load, store }),
             stencil_ops: self
                 .stencil_operations()
@@ -157,7 +157,7 @@ impl Work<'_> {
     /// Sets the groups. `view` is the offset of the view that shaders see as `frame`.
     pub(super) fn bind_groups(&self, view: u32, render_pass: &mut wgpu::RenderPass<'_>) {
         render_pass.set_bind_group(0, self.recording.scene, &[view]);
-        if let Some(group) = &self.pass.target_group {
+        if let Some(group) = &self.pass.bound.target_group {
             render_pass.set_bind_group(1, group, &[]);
         }
         if let Some(parameters) = &self.pass.parameters {

@@ -17,7 +17,7 @@ impl Work<'_> {
             return;
         };
         cost.unplaced_lights = list.unplaced;
-        let layers = &self.pass.attachments.layers;
+        let layers = &self.pass.bound.attachments.layers;
         let views = list.views.len().min(layers.len());
         for (part, (view, layer)) in list.views.iter().zip(layers).enumerate() {
             let timestamps = self.queries.span(self.index, part, views);

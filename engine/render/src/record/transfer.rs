@@ -8,13 +8,13 @@ use crate::statistics::PassStatistics;
 impl Work<'_> {
     /// Fills every slice of every target, and zeros buffers.
     pub(super) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
-        let parts = self.pass.attachments.clears();
+        let parts = self.pass.bound.attachments.clears();
         let mut done = 0;
         let mut part = || {
             done += 1;
             self.queries.span(self.index, done - 1, parts)
         };
-        for (index, view, depth_slice) in &self.pass.attachments.slices {
+        for (index, view, depth_slice) in &self.pass.bound.attachments.slices {
             let Some(color) = self.desc.colors.get(*index) else {
                 continue;
             };
@@ -32,7 +32,7 @@ impl Work<'_> {
         if let Some(depth) = &self.desc.depth {
             let format = self.targets.get(&depth.target);
             let format = format.map(|target| target.texture.format());
-            for view in &self.pass.attachments.layers {
+            for view in &self.pass.bound.attachments.layers {
                 let attachment = wgpu::RenderPassDepthStencilAttachment {
                     view,
                     depth_ops: match depth.load {
@@ -117,7 +117,7 @@ impl Work<'_> {
 
     /// Takes the mean of the samples, by an empty pass that resolves at its end.
     pub(super) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
-        let Some((from, Some(to))) = self.pass.attachments.colors.first() else {
+        let Some((from, Some(to))) = self.pass.bound.attachments.colors.first() else {
             return;
         };
         let attachment = Some(wgpu::RenderPassColorAttachment {

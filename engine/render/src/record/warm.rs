@@ -93,10 +93,12 @@ fn cold<'a>(pass: &'a CompiledPass, frame: &Frame, meshes: &MeshPool) -> Option<
         PassPipelines::Compute(pipeline) => {
             pipeline.warmth.is_cold().then_some(Cold::Compute(pipeline))
         }
-        PassPipelines::Mips {
-            pipeline, levels, ..
-        } => {
-            let level = levels.first().filter(|_| pipeline.warmth.is_cold());
+        PassPipelines::Mips { pipeline, .. } => {
+            let level = pass
+                .bound
+                .levels
+                .first()
+                .filter(|_| pipeline.warmth.is_cold());
             level.map(|level| Cold::MipLevel(pipeline, level))
         }
     }
@@ -222,7 +224,7 @@ impl Work<'_> {
         view: u32,
         encoder: &mut wgpu::CommandEncoder,
     ) {
-        let Some(layer) = self.pass.attachments.layers.first() else {
+        let Some(layer) = self.pass.bound.attachments.layers.first() else {
             return;
         };
         let mut render_pass = self.layer(layer, None, encoder);

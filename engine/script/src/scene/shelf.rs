@@ -57,7 +57,7 @@ impl Shelf {
 }
 
 /// How much a scene's tables of assets hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Default, Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stock {
     counts: AssetCounts,
     triangles: usize,

@@ -84,7 +84,7 @@ fn asset(editor: &Editor, ui: &mut Ui, scene: &Scene, listed: &Listed, wish: &mu
         };
         let label = ui.label(text);
         if !users.is_empty() {
-            label.on_hover_text(workbench.names_of(&users));
+            label.on_hover_text(workbench.names_for_people(&users));
             if ui.small_button(say!("assets.choose_users")).clicked() {
                 *wish = Some(Wish::ChooseUsers(listed.id));
             }

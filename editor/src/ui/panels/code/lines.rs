@@ -8,6 +8,7 @@ use egui::text::{LayoutJob, LayoutSection, TextFormat, TextWrapping};
 use egui::{Color32, FontId, Galley, Ui};
 
 use crate::ui::code::tokens::{self, Kind, Language};
+use crate::ui::lesson::letters::{Level, SMALLER, parts};
 
 /// The size of the letters, in points.
 const SIZE: f32 = 12.5;
@@ -32,6 +33,23 @@ fn color(kind: Kind, dark: bool) -> Color32 {
     };
     let (r, g, b) = if dark { on_dark } else { on_light };
     Color32::from_rgb(r, g, b)
+}
+
+/// A short piece of code with its colours, for elsewhere.
+pub fn listing(language: Language, text: &str, dark: bool) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    tokens::read(language, text, &mut |range, kind| {
+        for (part, level) in parts(&text[range]) {
+            let mut format = TextFormat::simple(font(), color(kind, dark));
+            format.valign = level.align();
+            if level != Level::Line {
+                format.font_id.size *= SMALLER;
+            }
+            job.append(&part, 0.0, format);
+        }
+    });
+    job.wrap = TextWrapping::no_max_width();
+    job
 }
 
 /// What the drawn text was made from.

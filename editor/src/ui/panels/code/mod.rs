@@ -1,8 +1,7 @@
 //! Scripts and shaders, to be read and changed beside the picture.
 
 mod find;
-pub mod leaving;
-mod lines;
+pub mod lines;
 mod list;
 mod notes;
 mod text;

@@ -106,6 +106,8 @@ impl TextField {
             .show(&mut inner, |ui| {
                 let behind = ui.painter().add(Shape::Noop);
                 let output = self.edit(ui, document, id, language, &whole);
+                ui.ctx()
+                    .accesskit_node_builder(id, |node| node.set_label(document.path.as_str()));
                 let shapes = backgrounds(ui, &output, shown, &self.chosen);
                 ui.painter().set(behind, shapes);
                 marks(ui, &output, document, shown.marks);

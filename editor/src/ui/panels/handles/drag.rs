@@ -11,6 +11,7 @@ use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
 use crate::ui::messages::say;
 use crate::ui::workbench::structure::is_locked;
+use crate::ui::workbench::viewports::Viewport;
 
 /// An entity as it was when the drag began.
 struct Start {
@@ -35,6 +36,8 @@ pub struct Drag {
     pub frame: Frame,
     /// Which one is dragged.
     pub part: Part,
+    /// In which viewport.
+    pub viewport: Viewport,
     from: Pos2,
     last: Pos2,
     /// Radians that the pointer has gone around the middle, against the clock.
@@ -49,7 +52,13 @@ impl Drag {
     ///
     /// # Errors
     /// A sentence, where something of it can't be changed by hand.
-    pub fn begin(editor: &Editor, frame: Frame, part: Part, at: Pos2) -> Result<Self, String> {
+    pub fn begin(
+        editor: &Editor,
+        frame: Frame,
+        part: Part,
+        at: Pos2,
+        viewport: Viewport,
+    ) -> Result<Self, String> {
         let workbench = &editor.workbench;
         let scene = workbench.scenes.scene();
         let scene = scene.ok_or_else(|| say!("handles.no_scene_is_loaded").to_owned())?;
@@ -86,6 +95,7 @@ impl Drag {
         Ok(Self {
             frame,
             part,
+            viewport,
             from: at,
             last: at,
             turned: 0.0,

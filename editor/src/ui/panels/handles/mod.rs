@@ -12,6 +12,7 @@ use super::marks::Mark;
 use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
 use crate::ui::messages::say;
+use crate::ui::workbench::viewports::Viewport;
 
 pub use drag::Drag;
 
@@ -129,14 +130,23 @@ fn frame(editor: &Editor, lens: &Lens) -> Option<Frame> {
     })
 }
 
-/// Lets handles be dragged. Returns whether one has the pointer.
-pub fn interact(editor: &mut Editor, ui: &Ui, response: &Response, lens: &Lens) -> bool {
-    if !editor.marks.has(Mark::Handles) {
+/// Lets handles be dragged in a viewport. Returns whether one has the pointer.
+pub fn interact(
+    editor: &mut Editor,
+    ui: &Ui,
+    response: &Response,
+    lens: &Lens,
+    viewport: Viewport,
+) -> bool {
+    if !editor.marks_of(viewport).has(Mark::Handles) {
         return false;
     }
-    if editor.viewport.handles.drag.is_some() {
-        drag::go_on(editor, ui, response, lens);
-        return true;
+    if let Some(drag) = &editor.viewport.handles.drag {
+        let is_here = drag.viewport == viewport;
+        if is_here {
+            drag::go_on(editor, ui, response, lens);
+        }
+        return is_here;
     }
     let (origin, shift) = ui.input(|input| (input.pointer.press_origin(), input.modifiers.shift));
     let begins = response.drag_started_by(PointerButton::Primary) && !shift;
@@ -146,7 +156,7 @@ pub fn interact(editor: &mut Editor, ui: &Ui, response: &Response, lens: &Lens) 
     let Some(part) = draw::part_at(&frame, editor.viewport.handles.tool, lens, at) else {
         return false;
     };
-    match Drag::begin(editor, frame, part, at) {
+    match Drag::begin(editor, frame, part, at, viewport) {
         Ok(drag) => {
             editor.viewport.handles.refused = None;
             editor.viewport.handles.drag = Some(drag);
@@ -158,8 +168,8 @@ pub fn interact(editor: &mut Editor, ui: &Ui, response: &Response, lens: &Lens) 
 }
 
 /// Draws the handles, and the amount while one is dragged.
-pub fn show(editor: &mut Editor, ui: &Ui, lens: &Lens, pointer: Option<Pos2>) {
-    if !editor.marks.has(Mark::Handles) {
+pub fn show(editor: &mut Editor, ui: &Ui, lens: &Lens, pointer: Option<Pos2>, viewport: Viewport) {
+    if !editor.marks_of(viewport).has(Mark::Handles) {
         return;
     }
     let handles = &editor.viewport.handles;
@@ -169,7 +179,7 @@ pub fn show(editor: &mut Editor, ui: &Ui, lens: &Lens, pointer: Option<Pos2>) {
         return;
     };
     let part = match held {
-        Some(drag) => Some(drag.part),
+        Some(drag) => Some(drag.part).filter(|_| drag.viewport == viewport),
         None => pointer.and_then(|at| draw::part_at(&now, handles.tool, lens, at)),
     };
     let frame = held.map_or(now, |drag| Frame {
@@ -177,7 +187,7 @@ pub fn show(editor: &mut Editor, ui: &Ui, lens: &Lens, pointer: Option<Pos2>) {
         ..now
     });
     draw::show(ui, lens, &frame, handles.tool, part);
-    if let Some(drag) = held {
+    if let Some(drag) = held.filter(|drag| drag.viewport == viewport) {
         draw::amount(ui, lens, &frame, &drag.words(handles.tool));
     }
     if editor.workbench.selection.is_empty() {

@@ -9,11 +9,13 @@ pub use icons::{icon_at, place_of};
 pub use shapes::circle_points;
 
 use egui::{Align2, FontId, Stroke, Ui, pos2, vec2};
+use serde::{Deserialize, Serialize};
 
 use crate::ui::editor::Editor;
 use crate::ui::lens::Lens;
 use crate::ui::theme::Palette;
 use crate::ui::workbench::extent::bounds_of;
+use crate::ui::workbench::viewports::Viewport;
 
 /// Something that is drawn over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +37,8 @@ pub enum Mark {
 }
 
 /// What of it is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Marks {
     grid: bool,
     icons: bool,
@@ -86,21 +89,26 @@ impl Marks {
     }
 }
 
-/// Draws all that is shown.
-pub fn show(editor: &Editor, ui: &Ui, lens: &Lens) {
+/// Draws all that is shown in a viewport.
+pub fn show(editor: &Editor, ui: &Ui, lens: &Lens, viewport: Viewport) {
     let Some(scene) = editor.workbench.scenes.scene() else {
         return;
     };
     let painter = ui.painter_at(lens.rect);
     let palette = Palette::of(ui);
-    let side = editor.workbench.camera.flat().map(|flat| flat.side);
-    if editor.marks.has(Mark::Grid) {
+    let side = editor
+        .workbench
+        .camera_of(viewport)
+        .flat()
+        .map(|flat| flat.side);
+    let marks = editor.marks_of(viewport);
+    if marks.has(Mark::Grid) {
         grid::show(&painter, lens, side);
     }
-    if editor.marks.has(Mark::Icons) {
+    if marks.has(Mark::Icons) {
         icons::show(&painter, lens, scene, &editor.workbench.selection);
     }
-    if editor.marks.has(Mark::Selection) {
+    if marks.has(Mark::Selection) {
         let stroke = Stroke::new(1.5, palette.warning);
         for entity in editor.workbench.selection.entities() {
             if let Some((min, max)) = bounds_of(scene, entity) {

@@ -4,6 +4,7 @@
 //! under other settings. Both stay warm, and a mistake in one leaves the other. While nothing is
 //! compared, none of this holds anything on the device.
 
+mod choosing;
 mod drawing;
 mod judging;
 mod numbers;
@@ -20,6 +21,7 @@ use self::judging::Judge;
 use self::side::Side;
 use super::Workbench;
 use super::pipelines::News;
+use super::viewports::Viewport;
 use crate::ui::messages::say;
 
 pub use self::judging::{Judged, Judgement};
@@ -271,6 +273,14 @@ impl Workbench {
         if self.comparing.is_on == on {
             return;
         }
+        let what = match on {
+            true => say!("history.compare"),
+            false => say!("history.compare_no_more"),
+        };
+        self.as_place("compare", what, false, |this| this.compare_now(on));
+    }
+
+    fn compare_now(&mut self, on: bool) {
         self.comparing.is_on = on;
         self.canvas.invalidate();
         if !on {
@@ -303,47 +313,6 @@ impl Workbench {
         comparing.frames.clear();
     }
 
-    /// Chooses the pipeline of B. Begins the comparison where there is none.
-    pub fn select_other(&mut self, name: &str) {
-        self.compare(true);
-        if let Some(side) = &mut self.comparing.side {
-            side.select(name);
-            self.canvas.invalidate();
-        }
-    }
-
-    /// Gives B the pipeline and the values of A, to be changed then.
-    pub fn other_like_this(&mut self) {
-        self.compare(true);
-        let name = self.pipelines.selected().to_owned();
-        let settings = self.pipelines.slot(&name);
-        let settings = settings.map(|slot| slot.settings.clone());
-        self.set_other(&name, settings.unwrap_or_default());
-    }
-
-    /// Chooses the pipeline of B with values for its parameters.
-    pub fn set_other(&mut self, name: &str, settings: lightbench::script::Settings) {
-        self.compare(true);
-        if let Some(side) = &mut self.comparing.side {
-            side.pipelines.select_with(name, settings);
-            self.canvas.invalidate();
-        }
-    }
-
-    /// Gives a parameter of B a value, or with `None` its default.
-    pub fn set_other_parameter(
-        &mut self,
-        parameter: &str,
-        value: Option<lightbench::script::SettingValue>,
-    ) {
-        if let Some(side) = &mut self.comparing.side {
-            match value {
-                Some(value) => side.pipelines.set(parameter, value),
-                None => side.pipelines.unset(parameter),
-            }
-        }
-    }
-
     /// Draws the same moment so many times more, for medians of more frames.
     pub fn draw_more(&mut self, pairs: u32) {
         if self.comparing.is_on {
@@ -354,6 +323,11 @@ impl Workbench {
 
     /// Makes A of B and B of A. Both stay warm.
     pub fn swap_sides(&mut self) {
+        let what = say!("history.swap");
+        self.as_place("swap", what, false, Self::swap_sides_now);
+    }
+
+    fn swap_sides_now(&mut self) {
         let Some(side) = self
             .comparing
             .side
@@ -366,6 +340,8 @@ impl Workbench {
             return;
         }
         std::mem::swap(&mut self.pipelines, &mut side.pipelines);
+        // The second viewport shows A.
+        side.pipelines.release_series(Viewport::Second.series());
         self.comparing.waiting = None;
         // Frames on their way belong to the other side now.
         self.timings.reset();

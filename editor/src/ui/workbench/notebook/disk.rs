@@ -75,6 +75,30 @@ pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), String> {
     write_atomic(path, bytes).map_err(|error| error.to_string())
 }
 
+/// The files of an entry, byte for byte.
+#[derive(Clone, Debug)]
+pub(super) struct Files {
+    json: Vec<u8>,
+    /// Its picture, where there is one.
+    pub(super) png: Option<Vec<u8>>,
+}
+
+/// The files of an entry, where it is on the disk.
+pub(super) fn files(folder: &Path, name: &str) -> Option<Files> {
+    Some(Files {
+        json: fs::read(folder.join(format!("{name}.json"))).ok()?,
+        png: fs::read(folder.join(format!("{name}.png"))).ok(),
+    })
+}
+
+/// Writes the files of an entry that was deleted: its picture first.
+pub(super) fn bring_back(folder: &Path, name: &str, files: &Files) -> Result<(), String> {
+    if let Some(png) = &files.png {
+        write_file(&folder.join(format!("{name}.png")), png)?;
+    }
+    write_file(&folder.join(format!("{name}.json")), &files.json)
+}
+
 /// Deletes an entry: the file that makes it one first.
 pub(super) fn delete(folder: &Path, name: &str) -> Result<(), String> {
     let file = folder.join(format!("{name}.json"));

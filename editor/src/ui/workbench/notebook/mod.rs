@@ -2,6 +2,7 @@
 //!
 //! An entry that can't be written stays in memory until it can.
 
+mod changing;
 mod disk;
 mod entry;
 mod markdown;
@@ -18,6 +19,7 @@ use lightbench::render::readback::Reading;
 use super::Workbench;
 use crate::ui::messages::say;
 
+pub use self::changing::Deleted;
 pub use self::entry::{Difference, Entry};
 
 /// The folder of the notebook in a project.
@@ -89,6 +91,11 @@ impl Notebook {
             .retain(|known| known.entry.name != kept.entry.name);
         self.entries.push(kept);
         self.sort();
+    }
+
+    /// Entries that are in memory alone.
+    pub fn unsaved(&self) -> impl Iterator<Item = &Kept> {
+        self.entries.iter().filter(|kept| kept.unsaved.is_some())
     }
 
     fn sort(&mut self) {
@@ -284,46 +291,6 @@ impl Workbench {
         });
     }
 
-    /// Changes the note of an entry.
-    pub fn set_note(&mut self, name: &str, note: &str) {
-        let folder = self.notebook_folder();
-        let mut all = self.notebook.entries.iter_mut();
-        let Some(kept) = all.find(|kept| kept.entry.name == name) else {
-            return;
-        };
-        if kept.entry.note == note {
-            return;
-        }
-        note.clone_into(&mut kept.entry.note);
-        let written = folder.and_then(|folder| disk::write(&folder, &kept.entry, kept.png()));
-        kept.unsaved = written.err();
-        self.notebook.said = kept
-            .unsaved
-            .clone()
-            .map(|why| Err(say!("notebook.the_note_is_in_memory_alone", why = why)));
-    }
-
-    /// Deletes an entry with its picture.
-    pub fn delete_entry(&mut self, name: &str) {
-        let folder = self.notebook_folder();
-        let result = folder.and_then(|folder| disk::delete(&folder, name));
-        let kept = self.notebook.entries.iter().find(|k| k.entry.name == name);
-        let only_here = kept.is_some_and(|kept| kept.png.is_some());
-        match result {
-            Err(why) if !only_here => {
-                self.notebook.said = Some(Err(say!(
-                    "notebook.was_not_deleted",
-                    name = name,
-                    why = why
-                )));
-            }
-            _ => {
-                self.notebook.entries.retain(|k| k.entry.name != name);
-                self.notebook.said = Some(Ok(say!("notebook.was_deleted", name = name)));
-            }
-        }
-    }
-
     /// Goes to where an entry was kept: the view of A, and B beside it where there was one.
     ///
     /// # Errors
@@ -345,12 +312,15 @@ impl Workbench {
         };
         let view = read(&entry.view)?;
         let other = entry.view_b.as_deref().map(read).transpose()?;
-        self.go_to(&view)?;
-        match other {
-            Some(other) => self.set_other(&other.pipeline, other.pipeline_settings),
-            None => self.compare(false),
-        }
-        Ok(())
+        let what = say!("history.entry", name = name);
+        self.as_place("view", &what, true, |this| {
+            this.go_to(&view)?;
+            match other {
+                Some(other) => this.set_other(&other.pipeline, other.pipeline_settings),
+                None => this.compare(false),
+            }
+            Ok(())
+        })
     }
 
     /// Writes all entries as a page of Markdown beside their pictures. Gives its path.

@@ -88,7 +88,7 @@ fn values(api: &mut Api) {
             form,
             "Whether an image holds what a function says: `expected` is called with the whole coordinates \
              x and y of texels and gives a number, an array with one for each channel that is compared, or \
-             `()` where nothing is expected. Options as of `same_picture`, where a mistake is such a \
+             `()` where nothing is expected. Options as of `same_picture` except `channels`; a mistake is such a \
              function; and `every`, each how many texels along both axes is looked at, unless given so many \
              that the longer side has 32.",
             |work: Work, arguments| {
@@ -303,9 +303,10 @@ fn closed_form(
     let [first, last] = area;
     let mut texels = vec![None; image.texels.len()];
     let mut channels = 1;
-    // The grid begins in the middle of its first cell.
-    for y in (first[1] + every / 2..last[1]).step_by(every as usize) {
-        for x in (first[0] + every / 2..last[0]).step_by(every as usize) {
+    // The grid begins in the middle of its first cell, or of an area that is smaller than that.
+    let begin = |axis: usize| first[axis] + (every / 2).min((last[axis] - first[axis]) / 2);
+    for y in (begin(1)..last[1]).step_by(every as usize) {
+        for x in (begin(0)..last[0]).step_by(every as usize) {
             let place = (i64::from(x), i64::from(y));
             let value: Dynamic = function.call_within_context(arguments.context, place)?;
             if value.is_unit() {

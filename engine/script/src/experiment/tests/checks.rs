@@ -151,6 +151,23 @@ fn closed_forms_are_asked_on_a_grid() {
     assert_eq!(at(&mistakes[0].1).len(), 8);
 }
 
+/// An area that is narrower than half a step has a point too.
+#[test]
+fn a_single_row_is_looked_at() {
+    let found = evidence(
+        "work.same_values(\"a\", frame.target(\"hdr\"), |x, y| [x, y], #{
+            every: 4, within: [[0, 3], [8, 1]],
+        });",
+    );
+    let Evidence::Picture { expected, .. } = &found[0] else {
+        panic!("{found:?}");
+    };
+    let texels = expected.texels.iter().enumerate();
+    let looked: Vec<usize> = texels.filter_map(|(at, texel)| texel.map(|_| at)).collect();
+    // Columns 2 and 6 of row 3.
+    assert_eq!(looked, [8 * 3 + 2, 8 * 3 + 6]);
+}
+
 #[test]
 fn numbers_limits_and_statements_are_handed_on() {
     let found = evidence(

@@ -5,6 +5,7 @@
 //! writes the field too. It knows the script's own value, to give it back. One whose entity or
 //! component is not there waits until it comes.
 
+mod kept;
 mod lines;
 mod structure;
 #[cfg(test)]
@@ -21,6 +22,7 @@ use super::data::Data;
 use super::fields;
 use super::tables::{self, Field};
 pub use crate::scene::shelf::AssetId;
+pub use kept::{KeptEdit, KeptField, KeptOverlays};
 pub use lines::{degrees_of, line, rotation_of};
 pub(crate) use lines::{spell_point, spell_single};
 use structure::Done;

@@ -37,17 +37,36 @@ pub const LOCKED: &str = "locked";
 /// A change that was done, with what takes it back.
 #[derive(Clone, Debug)]
 pub(super) struct Done {
-    edit: Edit,
+    pub(super) edit: Edit,
     /// A number of its own.
     serial: u64,
     /// What takes it back; `None` while it waits for its entities.
     inverse: Option<Inverse>,
     /// Changed fields of what it has removed.
-    fields: Vec<((String, String), Overlay)>,
+    pub(super) fields: Vec<((String, String), Overlay)>,
     /// The greatest number that entities of the file have had by now.
-    greatest: u32,
+    pub(super) greatest: u32,
     /// How much there was of assets before and after it.
-    stock: (Stock, Stock),
+    pub(super) stock: (Stock, Stock),
+}
+
+impl Done {
+    /// One that waits for a scene.
+    pub(super) fn waiting(
+        edit: Edit,
+        serial: u64,
+        fields: Vec<((String, String), Overlay)>,
+        greatest: u32,
+    ) -> Self {
+        Self {
+            edit,
+            serial,
+            inverse: None,
+            fields,
+            greatest,
+            stock: Default::default(),
+        }
+    }
 }
 
 impl Overlays {

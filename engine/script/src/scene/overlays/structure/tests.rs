@@ -276,6 +276,35 @@ fn changed_fields_go_and_come_with_their_entities() {
 }
 
 #[test]
+fn changes_that_were_kept_lie_on_the_scene_of_another_run_as_they_did() {
+    let (mut first, mut overlays) = (scene(ROOM), Overlays::new());
+    let lamp = find(&first, "lamp");
+    let value = Value::Float(0.1);
+    overlays
+        .set(&mut first, lamp, "light.intensity", value)
+        .unwrap();
+    for edit in all_edits() {
+        overlays.edit(&mut first, edit).unwrap();
+    }
+    let kept = overlays.kept();
+    assert_eq!(kept.edits.len(), all_edits().len());
+    let fields = kept.edits.iter().map(|edit| edit.fields.len());
+    assert_eq!(fields.sum::<usize>(), 1, "the lamp went with its table");
+
+    let (mut second, mut again) = (scene(ROOM), Overlays::from_kept(kept.clone()));
+    again.lay_on(&mut second);
+    assert_eq!(second.to_text().unwrap(), first.to_text().unwrap());
+    assert_eq!(again.kept(), kept);
+    // And both are taken back alike, the changed fields of what was removed included.
+    while let Some(edit) = overlays.undo_edit(&mut first) {
+        assert_eq!(again.undo_edit(&mut second), Some(edit));
+        assert_eq!(second.to_text().unwrap(), first.to_text().unwrap());
+    }
+    let lamp: Light = second.world.get(find(&second, "lamp")).unwrap();
+    assert_eq!(lamp.intensity, 0.1);
+}
+
+#[test]
 fn what_can_not_be_done_says_why_and_changes_nothing() {
     let (mut scene, mut overlays) = (scene(ROOM), Overlays::new());
     let before = scene.to_text().unwrap();

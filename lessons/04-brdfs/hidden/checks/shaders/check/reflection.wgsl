@@ -1,0 +1,45 @@
+// Calls one function for each pixel of a picture of 48 × 32; `checks.rhai` has the same arguments.
+#import reflection
+
+struct Parameters {
+    function: u32,
+    shape: f32,                         // exponent, roughness or index
+}
+
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+
+fn direction(degrees: f32, around: f32) -> vec3f {
+    let angle = radians(degrees);
+    return vec3f(sin(angle) * cos(radians(around)), sin(angle) * sin(radians(around)), cos(angle));
+}
+
+@fragment
+fn fragment_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let u = pixel.x / 48.0;
+    let v = pixel.y / 32.0;
+    let to_light = direction(10.0 + 70.0 * u, 200.0);
+    let to_eye = direction(5.0 + 72.0 * v, 170.0 * u);
+    let up = vec3f(0.0, 0.0, 1.0);
+    var value = 0.0;
+    switch parameters.function {
+        case 0u: { value = reflection::blinn_phong(parameters.shape, to_light, to_eye); }
+        case 1u: { value = reflection::blinn_phong(parameters.shape, to_eye, to_light); }
+        // Light from above, the eye at 256 angles down to the horizon.
+        case 2u: { value = reflection::blinn_phong(parameters.shape, up, direction(90.0 * pixel.x / 300.0, 250.0)); }
+        case 3u: { value = reflection::facets(parameters.shape, cos(radians(90.0 * pixel.x / 300.0))); }
+        case 4u: { value = reflection::fresnel(u, parameters.shape); }
+        case 5u: { value = reflection::masking(to_light, to_eye); }
+        case 6u: { value = reflection::cook_torrance(2.3, parameters.shape, to_light, to_eye); }
+        // The light sinks below the horizon, or the eye does.
+        default: {
+            let below = direction(90.5 + 20.0 * u, 0.0);
+            let above = direction(60.0, 120.0);
+            if v < 0.5 {
+                value = reflection::cook_torrance(2.3, parameters.shape, below, above);
+            } else {
+                value = reflection::cook_torrance(2.3, parameters.shape, above, below);
+            }
+        }
+    }
+    return vec4f(vec3f(value), 1.0);
+}
