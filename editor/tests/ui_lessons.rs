@@ -333,7 +333,7 @@ fn the_gallery_and_the_menu_open_lessons() {
     bench.harness.state_mut().perform(Action::Gallery, &ctx);
     bench.harness.run_steps(3);
     bench.press("Lessons");
-    bench.press("Linear light");
+    click(&mut bench, Role::Button, "Linear light");
     let name = |bench: &Bench| {
         let open = bench.harness.state().lessons.open.as_ref();
         open.map(|open| open.lesson.name.clone())
