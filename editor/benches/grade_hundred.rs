@@ -159,7 +159,10 @@ fn main() {
     let full = points[right[0].as_str()].1.expect("points");
     assert!(full > 10, "{full}");
     for name in &right {
-        assert_eq!(points[name.as_str()], ("checked", Some(full)), "{name}");
+        // One that is right, but near a threshold, has its points too, and a person looks at it.
+        let (state, of) = points[name.as_str()];
+        let is_judged = state == "checked" || state == "near a threshold";
+        assert!(is_judged && of == Some(full), "{name}: {state} {of:?}");
     }
     for name in &wrong {
         let (state, of) = points[name.as_str()];

@@ -1,5 +1,7 @@
 //! The catalogue and the program know the same keys, and the same names in braces.
 
+#![allow(clippy::unwrap_used)]
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
