@@ -11,7 +11,8 @@ step_links() {
         find "$root" -name '*.md' -not -path "$root/target/*" -not -path "$root/out/*" -not -path '*/template/*' |
             LC_ALL=C sort | while read -r document; do
             {
-                grep -oE '\]\([^)# ]+' "$document" | sed 's/^](//' | grep -vE '^[a-z]+:'
+                # What stands in a block of code is an example.
+                awk '/^ *```/ { code = !code; next } !code' "$document" | grep -oE '\]\([^)# ]+' | sed 's/^](//' | grep -vE '^[a-z]+:'
                 # shellcheck disable=SC2016 # these are the document's own back quotes
                 grep -oE '`(engine|editor|scripts|shaders|lessons|tests)/[a-z0-9_./-]*`' "$document" | tr -d '`'
             } | while read -r path; do
