@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
+use lightbench::world::glam::Vec2;
 use lightbench::world::{Entity, Name};
 use lightbench_editor::ui::layout::{self, Panel};
 
@@ -118,7 +119,7 @@ fn fill(bench: &mut Bench, panel: Panel) {
             bench.harness.get_by_label("Passes, ms").click();
             for _ in 0..30 {
                 let workbench = &mut bench.harness.state_mut().workbench;
-                workbench.step();
+                workbench.camera.orbit(Vec2::new(0.01, 0.0));
                 bench.picture();
             }
         }
@@ -130,7 +131,13 @@ fn fill(bench: &mut Bench, panel: Panel) {
         }
         Panel::Compare => {
             bench.key(Modifiers::NONE, Key::C);
-            bench.harness.run_steps(4);
+            bench.until("the difference", |editor| {
+                editor.workbench.judgement().is_some()
+            });
+        }
+        Panel::Materials => {
+            bench.harness.get_by_label("red plaster").click();
+            bench.harness.run_steps(20);
         }
         Panel::Code => bench.key(CTRL, Key::E),
         Panel::Lesson => bench.harness.state_mut().open_lesson("1"),
