@@ -181,12 +181,18 @@ fn a_person_can_work_in_the_window() {
         is_near(blot, &moved)
     });
 
-    // Undo, and do again.
-    screen.key(Key::Letter('z'), &[Key::Control]);
+    // Undo both swaps and the move, and do them again.
+    for _ in 0..3 {
+        screen.key(Key::Letter('z'), &[Key::Control]);
+        std::thread::sleep(Duration::from_millis(300));
+    }
     see(&screen, "the ball in its place", BLUE, |blot| {
         is_near(blot, &first)
     });
-    screen.key(Key::Letter('z'), &[Key::Control, Key::Shift]);
+    for _ in 0..3 {
+        screen.key(Key::Letter('z'), &[Key::Control, Key::Shift]);
+        std::thread::sleep(Duration::from_millis(300));
+    }
     let moved = see(&screen, "the ball moved again", BLUE, |blot| {
         is_near(blot, &moved)
     });

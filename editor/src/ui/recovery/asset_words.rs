@@ -13,13 +13,13 @@ use super::words::{
 pub(super) fn asset_to(edit: &AssetEdit) -> Value {
     match edit {
         AssetEdit::NewMaterial { name, like } => {
-            json!({ "asset": "new material", "name": name, "like": maybe_to(like.as_ref()) })
+            json!({ "asset": "new_material", "name": name, "like": maybe_to(like.as_ref()) })
         }
         AssetEdit::RenameMaterial { of, name } => {
-            json!({ "asset": "rename material", "of": who_to(of), "name": name })
+            json!({ "asset": "rename_material", "of": who_to(of), "name": name })
         }
         AssetEdit::DeleteMaterial { of } => {
-            json!({ "asset": "delete material", "of": all_to(of) })
+            json!({ "asset": "delete_material", "of": all_to(of) })
         }
         AssetEdit::Paint { field, of } => {
             let of = of.iter();
@@ -31,20 +31,20 @@ pub(super) fn asset_to(edit: &AssetEdit) -> Value {
         AssetEdit::Dress { of, material } => {
             json!({ "asset": "dress", "of": all_to(of), "to": maybe_to(material.as_ref()) })
         }
-        AssetEdit::NewMesh { recipe } => json!({ "asset": "new mesh", "recipe": recipe }),
+        AssetEdit::NewMesh { recipe } => json!({ "asset": "new_mesh", "recipe": recipe }),
         AssetEdit::Reshape { of, mesh } => {
             json!({ "asset": "reshape", "of": all_to(of), "to": maybe_to(mesh.as_ref()) })
         }
-        AssetEdit::DeleteMesh { of } => json!({ "asset": "delete mesh", "of": who_to(of) }),
-        AssetEdit::NewTexture { recipe } => json!({ "asset": "new texture", "recipe": recipe }),
-        AssetEdit::DeleteTexture { of } => json!({ "asset": "delete texture", "of": who_to(of) }),
+        AssetEdit::DeleteMesh { of } => json!({ "asset": "delete_mesh", "of": who_to(of) }),
+        AssetEdit::NewTexture { recipe } => json!({ "asset": "new_texture", "recipe": recipe }),
+        AssetEdit::DeleteTexture { of } => json!({ "asset": "delete_texture", "of": who_to(of) }),
         AssetEdit::AddModel {
             path,
             name,
             number,
             place,
         } => json!({
-            "asset": "add model",
+            "asset": "add_model",
             "path": path,
             "name": name,
             "number": number,
@@ -59,15 +59,15 @@ pub(super) fn asset_from(value: &Value) -> Option<AssetEdit> {
     let name = || text(&value["name"]);
     let recipe = || text(&value["recipe"]);
     Some(match value["asset"].as_str()? {
-        "new material" => AssetEdit::NewMaterial {
+        "new_material" => AssetEdit::NewMaterial {
             name: name()?,
             like: maybe_from(&value["like"])?,
         },
-        "rename material" => AssetEdit::RenameMaterial {
+        "rename_material" => AssetEdit::RenameMaterial {
             of: one()?,
             name: name()?,
         },
-        "delete material" => AssetEdit::DeleteMaterial { of: of()? },
+        "delete_material" => AssetEdit::DeleteMaterial { of: of()? },
         "paint" => {
             let field = value["field"].as_str()?;
             let of = value["of"].as_array()?.iter();
@@ -89,15 +89,15 @@ pub(super) fn asset_from(value: &Value) -> Option<AssetEdit> {
             of: of()?,
             material: maybe_from(&value["to"])?,
         },
-        "new mesh" => AssetEdit::NewMesh { recipe: recipe()? },
+        "new_mesh" => AssetEdit::NewMesh { recipe: recipe()? },
         "reshape" => AssetEdit::Reshape {
             of: of()?,
             mesh: maybe_from(&value["to"])?,
         },
-        "delete mesh" => AssetEdit::DeleteMesh { of: one()? },
-        "new texture" => AssetEdit::NewTexture { recipe: recipe()? },
-        "delete texture" => AssetEdit::DeleteTexture { of: one()? },
-        "add model" => AssetEdit::AddModel {
+        "delete_mesh" => AssetEdit::DeleteMesh { of: one()? },
+        "new_texture" => AssetEdit::NewTexture { recipe: recipe()? },
+        "delete_texture" => AssetEdit::DeleteTexture { of: one()? },
+        "add_model" => AssetEdit::AddModel {
             path: text(&value["path"])?,
             name: name()?,
             number: whole(&value["number"])?,

@@ -131,6 +131,9 @@ impl Workbench {
             true => self.words_for_eye(&eye),
             false => match names.as_slice() {
                 [] => say!("history.nothing_chosen").to_owned(),
+                [one] if one.is_empty() => {
+                    say!("history.chosen", name = say!("entities.what_has_no_name"))
+                }
                 [one] => say!("history.chosen", name = one),
                 all => say!("history.several_chosen", count = all.len()),
             },

@@ -19,10 +19,11 @@ pub(super) fn show(
     materials: &[&Listed],
     wish: &mut Option<Wish>,
 ) {
-    let field = TextEdit::singleline(&mut editor.materials.filter)
-        .hint_text(say!("materials.filter"))
-        .desired_width(f32::INFINITY);
-    ui.add(field);
+    ui.horizontal(|ui| {
+        let label = ui.label(say!("materials.filter"));
+        let field = TextEdit::singleline(&mut editor.materials.filter).desired_width(f32::INFINITY);
+        ui.add(field).labelled_by(label.id);
+    });
     let typed = editor.materials.filter.to_lowercase();
     let fits = |one: &&&Listed| one.who.name.to_lowercase().contains(typed.trim());
     let shown: Vec<&&Listed> = materials.iter().filter(fits).collect();
