@@ -151,7 +151,12 @@ fn mutants_that_can_be_seen_lose_points() {
         "{visible} mutants can be seen, {} of them lose no points",
         survived.len()
     );
-    assert!(visible > 0);
+    // Few would say nothing of the share; one lesson alone has few.
+    let least = match std::env::var_os("LIGHTBENCH_LESSON") {
+        Some(_) => 1,
+        None => 20,
+    };
+    assert!(visible >= least, "only {visible} mutants can be seen");
     assert!(
         20 * survived.len() <= visible,
         "{} of {visible}:\n{}",
