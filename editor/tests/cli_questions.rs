@@ -87,11 +87,18 @@ fn answers_of(lesson: &Path) {
     let about = fs::read_to_string(lesson.join("lesson.toml")).unwrap();
     let about: toml::Table = toml::from_str(&about).unwrap();
     let questions = about["question"].as_array().unwrap();
-    assert_eq!(questions.len(), variants.answer.len(), "{}", lesson.display());
+    assert_eq!(
+        questions.len(),
+        variants.answer.len(),
+        "{}",
+        lesson.display()
+    );
     let place = tempfile::tempdir().unwrap();
     let project = solved(lesson, place.path());
     for answer in &variants.answer {
-        let Answer { question, value, .. } = answer;
+        let Answer {
+            question, value, ..
+        } = answer;
         let (command, arguments) = match (&answer.compare, &answer.run) {
             (Some(compare), None) => ("compare", compare),
             (None, Some(run)) => ("run", run),
