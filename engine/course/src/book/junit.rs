@@ -111,7 +111,7 @@ mod tests {
         let suite = "<testsuite name=\"17\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\" time=\"1.500\">";
         assert!(text.contains(suite), "{text}");
         assert!(text.contains("<testcase classname=\"curve\" name=\"shape\"/>"));
-        let expected = "message=\"expected: 0.5 &lt; x; found: &quot;0.25&quot; (pixel 3, 4)\"";
+        let expected = "message=\"expected: 0.5 &lt; x; found: &quot;0.25&quot; (pixel 3, 4) (found by a check";
         assert!(text.contains(expected), "{text}");
         assert!(text.contains("gamma &amp; twice"));
         assert!(text.contains("<failure message=\"Nothing is changed yet\">"));
