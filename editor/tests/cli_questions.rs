@@ -20,15 +20,26 @@ struct Variants {
 #[derive(Deserialize)]
 struct Answer {
     question: String,
-    /// What measures it: arguments of `compare`, or of another command with its name.
-    compare: Option<Vec<String>>,
-    run: Option<Vec<String>>,
-    /// The report in the folder that the command writes.
+    /// What it is read from.
+    #[serde(flatten)]
+    from: From,
+    /// The report's file.
     report: String,
     value: f64,
     wrong: f64,
-    /// Arguments of `compare` for a report that does not answer it.
-    other: Vec<String>,
+}
+
+/// What gives a report, and another one that does not answer the question.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum From {
+    /// Arguments of `compare`.
+    Measured {
+        compare: Vec<String>,
+        other: Vec<String>,
+    },
+    /// What a student writes down from what a command prints.
+    Written { table: String, other_table: String },
 }
 
 /// The folders of the lessons.
@@ -62,11 +73,17 @@ fn solved(lesson: &Path, place: &Path) -> PathBuf {
     project
 }
 
-fn measure(project: &Path, command: &str, arguments: &[String], out: &str) {
-    let mut all = vec![command];
+fn measure(project: &Path, arguments: &[String], out: &str) {
+    let mut all = vec!["compare"];
     all.extend(arguments.iter().map(String::as_str));
-    all.extend(["--out", out]);
+    all.extend(["--restart", "--out", out]);
     run_in(project, &all, &[]).succeeded();
+}
+
+fn write(project: &Path, file: &str, text: &str) {
+    let path = project.join(file);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, text).unwrap();
 }
 
 /// The points that an answer gets, and what the check says.
@@ -99,19 +116,23 @@ fn answers_of(lesson: &Path) {
         let Answer {
             question, value, ..
         } = answer;
-        let (command, arguments) = match (&answer.compare, &answer.run) {
-            (Some(compare), None) => ("compare", compare),
-            (None, Some(run)) => ("run", run),
-            _ => panic!("`{question}` has to be measured in one way"),
-        };
-        measure(&project, command, arguments, "reports/right");
         let report = format!("reports/right/{}", answer.report);
+        let other_report = format!("reports/other/{}", answer.report);
+        match &answer.from {
+            From::Measured { compare, other } => {
+                measure(&project, compare, "reports/right");
+                measure(&project, other, "reports/other");
+            }
+            From::Written { table, other_table } => {
+                write(&project, &report, table);
+                write(&project, &other_report, other_table);
+            }
+        }
         let (found, of, said) = points(&project, question, *value, &report);
         assert!(of > 0 && found == of, "{}: {said}", lesson.display());
         let (found, _, said) = points(&project, question, answer.wrong, &report);
         assert_eq!(found, 0, "{}: {said}", lesson.display());
-        measure(&project, "compare", &answer.other, "reports/other");
-        let (found, _, said) = points(&project, question, *value, "reports/other/report.json");
+        let (found, _, said) = points(&project, question, *value, &other_report);
         assert_eq!(found, 0, "{}: {said}", lesson.display());
     }
 }
