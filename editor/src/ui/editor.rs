@@ -33,6 +33,7 @@ use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
 use super::pictures::Pictures;
 use super::recovery::Recovery;
 use super::screen::Screen;
+use super::window_view::WindowView;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
 use super::workbench::viewports::Viewport;
@@ -82,6 +83,8 @@ pub struct Editor {
     pub kept: Kept,
     /// How the window was arranged when that was last looked at.
     pub(super) arranged: Option<Arrangement>,
+    /// How the window is arranged, as a part of what is looked at.
+    pub(super) window_view: Arc<WindowView>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -160,6 +163,7 @@ impl Editor {
             marks,
             kept,
             arranged: None,
+            window_view: Arc::default(),
             bring: None,
             revealed: None,
             hint: true,
@@ -265,12 +269,15 @@ impl Editor {
         }
         self.take_dropped_files(&ctx);
         self.remember_scene();
+        self.tend_window_view(&ctx);
         self.remember_arrangement(&ctx);
+        self.take_number_keys();
 
         let held = ctx.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.was_typing = ctx.egui_wants_keyboard_input();
         self.workbench.note_dials();
-        self.workbench.note_view(now, held);
+        let window = Arc::clone(&self.window_view);
+        self.workbench.note_view(now, held, &window);
         if !held && !self.was_typing {
             self.workbench.undo.seal();
         }
@@ -435,7 +442,7 @@ impl Editor {
         ctx.set_zoom_factor(self.kept.scale);
     }
 
-    fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
+    pub(super) fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
         if let Err(error) = kept {
             self.workbench.log.warn(error);
         }

@@ -28,6 +28,7 @@ mod screen;
 mod surface;
 pub mod theme;
 mod window;
+pub mod window_view;
 pub mod workbench;
 
 pub use editor::Editor;
