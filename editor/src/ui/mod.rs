@@ -21,6 +21,7 @@ mod lessoning;
 pub mod menus;
 pub(crate) mod messages;
 mod panels;
+mod panes;
 mod pictures;
 pub mod recovery;
 mod runs;

@@ -62,7 +62,7 @@ pub(super) fn then(recipe: Option<String>, call: &Arguments) -> Option<String> {
     Some(format!("{}.{}", recipe?, call.spelled()?))
 }
 
-/// The calls that make a material. `texture` gives the name of a texture in the file.
+/// The calls that make a material. `texture` gives those that make a texture.
 pub(super) fn material(
     material: &Material,
     texture: impl Fn(TextureId) -> Option<String>,
@@ -105,8 +105,7 @@ pub(super) fn material(
     }
     for (call, id) in [("texture", base_color_texture), ("normals", normal_texture)] {
         if let Some(id) = id {
-            let name = spell_text(&texture(*id)?);
-            recipe += &format!(".{call}(texture({name}))");
+            recipe += &format!(".{call}({})", texture(*id)?);
         }
     }
     if let Some(cutoff) = alpha_cutoff {

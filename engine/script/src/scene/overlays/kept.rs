@@ -61,20 +61,21 @@ impl Overlays {
         }
     }
 
+    /// Takes in changes of the structure after those that there are. They wait until [`Overlays::follow`]
+    /// finds their entities.
+    pub fn wait_for(&mut self, edits: impl IntoIterator<Item = KeptEdit>) {
+        for kept in edits {
+            self.serial += 1;
+            let fields = kept.fields.into_iter().map(waiting).collect();
+            let done = Done::waiting(kept.edit, self.serial, fields, kept.greatest);
+            self.edits.push(done);
+        }
+        self.looked = None;
+    }
+
     /// Changes that wait for a scene: [`Overlays::lay_on`] lays them on one.
     #[must_use]
     pub fn from_kept(kept: KeptOverlays) -> Self {
-        let waiting = |(entity, path, value): KeptField| {
-            let overlay = Overlay {
-                value,
-                script: None,
-                contested: false,
-                in_force: None,
-                entity: Entity::NONE,
-                aim: None,
-            };
-            ((entity, path), overlay)
-        };
         let edits = kept.edits.into_iter().zip(1..).map(|(kept, serial)| {
             let fields = kept.fields.into_iter().map(waiting).collect();
             Done::waiting(kept.edit, serial, fields, kept.greatest)
@@ -88,4 +89,16 @@ impl Overlays {
             assets_seen: 0,
         }
     }
+}
+
+fn waiting((entity, path, value): KeptField) -> ((String, String), Overlay) {
+    let overlay = Overlay {
+        value,
+        script: None,
+        contested: false,
+        in_force: None,
+        entity: Entity::NONE,
+        aim: None,
+    };
+    ((entity, path), overlay)
 }
