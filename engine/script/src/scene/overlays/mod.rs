@@ -26,8 +26,10 @@ pub use kept::{KeptEdit, KeptField, KeptOverlays};
 pub use lines::{degrees_of, line, rotation_of};
 pub(crate) use lines::{spell_point, spell_single};
 use structure::Done;
+pub(super) use structure::LastListing;
 pub use structure::{
-    AssetEdit, Edit, LOCKED, Listed, NewKind, Picture, SurfaceField, SurfaceValue, Who, topmost,
+    AssetEdit, Edit, LOCKED, Listed, Listing, NewKind, Picture, SurfaceField, SurfaceValue, Who,
+    topmost,
 };
 
 /// One value that a person has set.

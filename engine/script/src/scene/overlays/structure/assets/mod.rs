@@ -23,7 +23,8 @@ use crate::scene::Scene;
 use crate::scene::shelf::AssetId;
 
 pub(super) use inverse::AssetInverse;
-pub use listing::Listed;
+pub(in crate::scene) use listing::LastListing;
+pub use listing::{Listed, Listing};
 pub use surface::{Picture, SurfaceField, SurfaceValue};
 pub(super) use work::perform;
 
