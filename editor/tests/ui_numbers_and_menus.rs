@@ -112,11 +112,17 @@ fn buttons(bench: &Bench) -> Vec<(String, f32, bool)> {
     .collect()
 }
 
-/// The lower end of the lowest of some buttons.
-fn lowest(bench: &Bench, starts: &[&str]) -> f32 {
+/// The lower end of the lowest of the buttons of a name; 0 where there is none.
+fn lowest(bench: &Bench, start: &str) -> f32 {
     let all = buttons(bench).into_iter();
-    let own = all.filter(|(name, ..)| starts.iter().any(|start| name.starts_with(start)));
+    let own = all.filter(|(name, ..)| name.starts_with(start));
     own.map(|(_, bottom, _)| bottom).fold(0.0, f32::max)
+}
+
+/// How many buttons are called so.
+fn called(bench: &Bench, title: &str) -> usize {
+    let all = buttons(bench).into_iter();
+    all.filter(|(name, ..)| name == title).count()
 }
 
 /// Tab, until a button of that name has the keys.
@@ -147,22 +153,25 @@ fn the_menu_view_fits_700_points_and_its_panels_open_by_keys() {
     bench.harness.run_steps(4);
     tab_to(&mut bench, "View");
     enter(&mut bench);
-    let end = lowest(&bench, &["Usual text"]);
+    let end = lowest(&bench, "Text and widgets of the usual size");
     assert!(end > 300.0 && end < 690.0, "{end}");
+    let titles = Panel::ALL.map(|panel| {
+        let mut known = entries();
+        let entry = known.find(|entry| entry.action == Action::Toggle(panel));
+        entry.map_or("", |entry| entry.title())
+    });
+    // Some are called as the tabs of their panels are.
+    let before = titles.map(|title| called(&bench, title));
     tab_to(&mut bench, "Panels");
     enter(&mut bench);
     // All panels but the viewports are there.
-    let all = buttons(&bench);
-    for panel in Panel::ALL {
+    for ((panel, title), before) in Panel::ALL.into_iter().zip(titles).zip(before) {
         if matches!(panel, Panel::Viewport | Panel::Second) {
             continue;
         }
-        let mut known = entries();
-        let entry = known.find(|entry| entry.action == Action::Toggle(panel));
-        let title = entry.unwrap().title();
-        let there = all.iter().find(|(name, ..)| name == title);
-        let (_, bottom, _) = there.unwrap_or_else(|| panic!("{title} is not there: {all:?}"));
-        assert!(*bottom < 700.0, "{title}: {bottom}");
+        assert_eq!(called(&bench, title), before + 1, "{title}");
+        let bottom = lowest(&bench, title);
+        assert!(bottom < 700.0, "{title}: {bottom}");
     }
     assert!(bench.harness.state().rect_of(Panel::Passes).is_some());
     tab_to(&mut bench, "Passes");

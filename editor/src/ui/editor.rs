@@ -86,6 +86,8 @@ pub struct Editor {
     pub(super) arranged: Option<Arrangement>,
     /// How the window is arranged, as a part of what is looked at.
     pub(super) window_view: Arc<WindowView>,
+    /// How it is arranged now, until it has been so in two frames.
+    pub(super) window_coming: Option<WindowView>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -165,6 +167,7 @@ impl Editor {
             kept,
             arranged: None,
             window_view: Arc::default(),
+            window_coming: None,
             bring: None,
             revealed: None,
             hint: true,

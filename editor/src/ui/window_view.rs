@@ -35,6 +35,10 @@ impl WindowView {
         Self { panels, marks }
     }
 
+    fn is(&self, panels: &Tree<Panel>, marks: &[Marks; 2]) -> bool {
+        self.marks == *marks && lie_alike(&self.panels, panels)
+    }
+
     /// What was done to come here from `before`, in words.
     pub fn words_since(&self, before: &Self) -> String {
         for viewport in [Viewport::First, Viewport::Second] {
@@ -139,16 +143,25 @@ impl Editor {
             }
             self.marks = wanted.marks;
             self.window_view = wanted;
+            self.window_coming = None;
             ctx.request_repaint();
             return;
         }
         // The way of a border that is dragged is one view.
         let held = ctx.input(|input| input.pointer.any_down());
-        let known = &self.window_view;
-        if held || known.marks == self.marks && lie_alike(&known.panels, &self.layout) {
+        if held || self.window_view.is(&self.layout, &self.marks) {
+            self.window_coming = None;
             return;
         }
-        self.window_view = Arc::new(WindowView::new(self.layout.clone(), self.marks));
+        // A panel that was dropped somewhere takes its place in the frames after that.
+        let rests = self.window_coming.take();
+        let now = WindowView::new(self.layout.clone(), self.marks);
+        if rests.is_some_and(|rests| rests.is(&self.layout, &self.marks)) {
+            self.window_view = Arc::new(now);
+        } else {
+            self.window_coming = Some(now);
+            ctx.request_repaint();
+        }
     }
 }
 

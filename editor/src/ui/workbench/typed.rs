@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use lightbench::script::overlays::{KeptEdit, Overlays};
+use lightbench::script::overlays::KeptEdit;
 
 use super::Workbench;
 use crate::ui::messages::say;
@@ -93,10 +93,7 @@ impl Workbench {
         let name = self.scenes.shown().unwrap_or_default().to_owned();
         // Where all of them came after the first line nothing lies on the scene yet.
         self.overlays.entry(name).or_default();
-        self.on_overlays(|overlays: &mut Overlays, scene| {
-            overlays.wait_for(edits);
-            overlays.follow(scene);
-        });
+        self.on_overlays(|overlays, scene| overlays.lay_more(scene, edits));
     }
 
     /// How many lines have changed the world of the scene on screen, which is in no file as it is.

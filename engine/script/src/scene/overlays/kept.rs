@@ -61,18 +61,6 @@ impl Overlays {
         }
     }
 
-    /// Takes in changes of the structure after those that there are. They wait until [`Overlays::follow`]
-    /// finds their entities.
-    pub fn wait_for(&mut self, edits: impl IntoIterator<Item = KeptEdit>) {
-        for kept in edits {
-            self.serial += 1;
-            let fields = kept.fields.into_iter().map(waiting).collect();
-            let done = Done::waiting(kept.edit, self.serial, fields, kept.greatest);
-            self.edits.push(done);
-        }
-        self.looked = None;
-    }
-
     /// Changes that wait for a scene: [`Overlays::lay_on`] lays them on one.
     #[must_use]
     pub fn from_kept(kept: KeptOverlays) -> Self {
@@ -91,7 +79,8 @@ impl Overlays {
     }
 }
 
-fn waiting((entity, path, value): KeptField) -> ((String, String), Overlay) {
+/// A changed field that waits for its entity.
+pub(super) fn waiting((entity, path, value): KeptField) -> ((String, String), Overlay) {
     let overlay = Overlay {
         value,
         script: None,
