@@ -49,8 +49,11 @@ fn scene(bench: &Bench) -> &Scene {
     bench.harness.state().workbench.scenes.scene().unwrap()
 }
 
+/// An entity's name and what it is drawn with.
+type Drawn = (String, Option<(Material, Arc<Mesh>)>);
+
 /// What each entity that has a name is drawn with.
-fn drawn(bench: &Bench) -> Vec<(String, Option<(Material, Arc<Mesh>)>)> {
+fn drawn(bench: &Bench) -> Vec<Drawn> {
     let scene = scene(bench);
     let names = scene.world.columns::<Name>();
     let each = names.text().iter().zip(names.entities());

@@ -87,7 +87,7 @@ fn a_slider_shows_all_digits_and_leaves_them() {
                 let thing = scene.world.find("box");
                 let place: Option<lightbench::world::Transform> =
                     thing.and_then(|thing| scene.world.get(thing));
-                place.is_some_and(|place| place.translation.x == 0.987_654_32)
+                place.is_some_and(|place| place.translation.x == 0.987_654_3)
             })
     });
     bench.harness.run_steps(3);

@@ -58,9 +58,11 @@ fn dress(of: &[&str], material: Option<&str>) -> AssetEdit {
     }
 }
 
-/// What each entity that has a name is drawn with: the calls of its mesh, and its material, whose textures
-/// stand as the calls that make them.
-fn drawn(scene: &Scene) -> Vec<(String, Option<(String, Material, [Option<String>; 2])>)> {
+/// An entity's name, the calls of its mesh, and its material, whose textures stand as the calls that make them.
+type Drawn = (String, Option<(String, Material, [Option<String>; 2])>);
+
+/// What each entity that has a name is drawn with.
+fn drawn(scene: &Scene) -> Vec<Drawn> {
     let names = scene.world.columns::<Name>();
     let mut all: Vec<_> = names
         .text()
