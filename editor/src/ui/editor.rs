@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use egui::mutex::RwLock;
-use egui_tiles::{SimplificationOptions, TileId, Tree, UiResponse};
+use egui_tiles::Tree;
 use lightbench::render::Gpu;
 
 use super::actions::{self, Action};
@@ -30,9 +30,11 @@ use super::panels::plots::PlotsPanel;
 use super::panels::view_text::PasteWindow;
 use super::panels::viewport::ViewportPanel;
 use super::panels::{self, passes::PassesPanel, targets::TargetsPanel};
+use super::panes::Panes;
 use super::pictures::Pictures;
 use super::recovery::Recovery;
 use super::screen::Screen;
+use super::window_view::WindowView;
 use super::workbench::Workbench;
 use super::workbench::sight::Sight;
 use super::workbench::viewports::Viewport;
@@ -82,6 +84,10 @@ pub struct Editor {
     pub kept: Kept,
     /// How the window was arranged when that was last looked at.
     pub(super) arranged: Option<Arrangement>,
+    /// How the window is arranged, as a part of what is looked at.
+    pub(super) window_view: Arc<WindowView>,
+    /// How it is arranged now, until it has been so in two frames.
+    pub(super) window_coming: Option<WindowView>,
     /// A panel to show before those that share its place, once all are drawn.
     pub(super) bring: Option<Panel>,
     /// A panel to show, also where somebody has hidden it, once all are drawn.
@@ -160,6 +166,8 @@ impl Editor {
             marks,
             kept,
             arranged: None,
+            window_view: Arc::default(),
+            window_coming: None,
             bring: None,
             revealed: None,
             hint: true,
@@ -228,7 +236,7 @@ impl Editor {
             let mut tree =
                 std::mem::replace(&mut self.layout, Tree::empty(egui::Id::unique("moved")));
             panels::steering::begin(self);
-            tree.ui(&mut Panels { editor: self, now }, ui);
+            tree.ui(&mut Panes { editor: self, now }, ui);
             panels::steering::end(self);
             if self.layout.is_empty() {
                 self.layout = tree;
@@ -265,12 +273,15 @@ impl Editor {
         }
         self.take_dropped_files(&ctx);
         self.remember_scene();
+        self.tend_window_view(&ctx);
         self.remember_arrangement(&ctx);
+        self.take_number_keys();
 
         let held = ctx.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.was_typing = ctx.egui_wants_keyboard_input();
         self.workbench.note_dials();
-        self.workbench.note_view(now, held);
+        let window = Arc::clone(&self.window_view);
+        self.workbench.note_view(now, held, &window);
         if !held && !self.was_typing {
             self.workbench.undo.seal();
         }
@@ -435,7 +446,7 @@ impl Editor {
         ctx.set_zoom_factor(self.kept.scale);
     }
 
-    fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
+    pub(super) fn tell_if_not_kept(&mut self, kept: Result<(), String>) {
         if let Err(error) = kept {
             self.workbench.log.warn(error);
         }
@@ -464,72 +475,5 @@ impl Editor {
         if let Some(next) = next.map(str::to_owned) {
             workbench.select_pipeline(&next);
         }
-    }
-}
-
-/// Draws the panels of the tree.
-struct Panels<'a> {
-    editor: &'a mut Editor,
-    now: Instant,
-}
-
-impl egui_tiles::Behavior<Panel> for Panels<'_> {
-    fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, panel: &mut Panel) -> UiResponse {
-        let viewport = match panel {
-            Panel::Viewport => Some(Viewport::First),
-            Panel::Second => Some(Viewport::Second),
-            _ => None,
-        };
-        if let Some(viewport) = viewport {
-            panels::viewport::show(self.editor, ui, self.now, viewport);
-            return UiResponse::None;
-        }
-        let fill = ui.visuals().panel_fill;
-        ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
-        let inner = ui.max_rect().shrink(8.0);
-        let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(inner));
-        ui.set_clip_rect(inner.expand(2.0));
-        let ui = &mut ui;
-        match panel {
-            Panel::Targets => panels::targets::show(self.editor, ui, self.now),
-            Panel::Pixel => panels::pixel::show(self.editor, ui),
-            Panel::Passes => panels::passes::show(self.editor, ui, self.now),
-            Panel::Pipeline => panels::parameters::pipeline(self.editor, ui),
-            Panel::Pipelines => panels::pipelines::show(self.editor, ui),
-            Panel::Scene => panels::parameters::scene(self.editor, ui),
-            Panel::Entities => panels::entities::show(self.editor, ui),
-            Panel::Materials => panels::materials::show(self.editor, ui),
-            Panel::Assets => panels::assets::show(self.editor, ui),
-            Panel::Environment => panels::environment::show(self.editor, ui),
-            Panel::Log => panels::log::show(self.editor, ui),
-            Panel::Console => panels::console::show(self.editor, ui),
-            Panel::Actions => panels::actions::show(self.editor, ui),
-            Panel::Plots => panels::plots::show(self.editor, ui),
-            Panel::History => panels::history::show(self.editor, ui),
-            Panel::Compare => panels::compare::show(self.editor, ui),
-            Panel::Notebook => panels::notebook::show(self.editor, ui),
-            Panel::Code => panels::code::show(self.editor, ui),
-            Panel::Lesson => panels::lesson::show(self.editor, ui),
-            Panel::Viewport | Panel::Second => {}
-        }
-        UiResponse::None
-    }
-
-    fn tab_title_for_pane(&mut self, panel: &Panel) -> egui::WidgetText {
-        if *panel == Panel::Code && self.editor.code.unsaved().next().is_some() {
-            return format!("{} •", panel.title()).into();
-        }
-        panel.title().into()
-    }
-
-    fn simplification_options(&self) -> SimplificationOptions {
-        SimplificationOptions {
-            all_panes_must_have_tabs: true,
-            ..SimplificationOptions::default()
-        }
-    }
-
-    fn gap_width(&self, _: &egui::Style) -> f32 {
-        4.0
     }
 }

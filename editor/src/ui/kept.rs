@@ -180,6 +180,15 @@ impl Kept {
         self.write()
     }
 
+    /// Gives number keys to pipelines, and no others.
+    ///
+    /// # Errors
+    /// A sentence, where the file can't be written. The keys are there until the program ends.
+    pub fn give_keys(&mut self, keys: BTreeMap<usize, String>) -> Result<(), String> {
+        self.favourites = keys;
+        self.write()
+    }
+
     /// Keeps what is open of lessons.
     ///
     /// # Errors

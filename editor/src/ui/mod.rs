@@ -21,6 +21,7 @@ mod lessoning;
 pub mod menus;
 pub(crate) mod messages;
 mod panels;
+mod panes;
 mod pictures;
 pub mod recovery;
 mod runs;
@@ -28,6 +29,7 @@ mod screen;
 mod surface;
 pub mod theme;
 mod window;
+pub mod window_view;
 pub mod workbench;
 
 pub use editor::Editor;

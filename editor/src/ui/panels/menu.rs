@@ -2,7 +2,7 @@
 
 use egui::{Button, MenuBar, Ui};
 
-use crate::ui::actions::{Action, key_text};
+use crate::ui::actions::{Action, Entry, key_text};
 use crate::ui::editor::Editor;
 use crate::ui::layout;
 use crate::ui::menus::MENUS;
@@ -27,31 +27,45 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                     if index > 0 {
                         ui.separator();
                     }
-                    for entry in *group {
-                        let mark = match entry.action {
-                            Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
-                            Action::Tool(tool) => editor.viewport.handles.tool == tool,
-                            Action::LocalAxes => editor.viewport.handles.local,
-                            Action::Mark(mark) => {
-                                editor.marks_of(editor.workbench.focus()).has(mark)
-                            }
-                            Action::Compare(action) => action.is_in_force(&editor.workbench),
-                            _ => false,
-                        };
-                        let mut button = Button::new(entry.title()).selected(mark);
-                        if let Some(shortcut) = &entry.shortcut {
-                            button = button.shortcut_text(key_text(ui.ctx(), shortcut));
-                        }
-                        if ui.add(button).clicked() {
-                            let ctx = ui.ctx().clone();
-                            editor.perform(entry.action, &ctx);
-                            ui.close();
-                        }
+                    match own_menu(group) {
+                        Some(title) => _ = ui.menu_button(title, |ui| entries(editor, ui, group)),
+                        None => entries(editor, ui, group),
                     }
                 }
             });
         }
     });
+}
+
+/// The title of the menu of its own in which a group lies, where it does: so many panels are there that with
+/// them a menu would be higher than small windows.
+fn own_menu(group: &[Entry]) -> Option<&'static str> {
+    let switches_panel = |entry: &Entry| matches!(entry.action, Action::Toggle(_));
+    let mut all = group.iter();
+    all.all(switches_panel).then(|| say!("menu.panels"))
+}
+
+/// Draws the entries of a group.
+fn entries(editor: &mut Editor, ui: &mut Ui, group: &[Entry]) {
+    for entry in group {
+        let mark = match entry.action {
+            Action::Toggle(panel) => layout::is_visible(&editor.layout, panel),
+            Action::Tool(tool) => editor.viewport.handles.tool == tool,
+            Action::LocalAxes => editor.viewport.handles.local,
+            Action::Mark(mark) => editor.marks_of(editor.workbench.focus()).has(mark),
+            Action::Compare(action) => action.is_in_force(&editor.workbench),
+            _ => false,
+        };
+        let mut button = Button::new(entry.title()).selected(mark);
+        if let Some(shortcut) = &entry.shortcut {
+            button = button.shortcut_text(key_text(ui.ctx(), shortcut));
+        }
+        if ui.add(button).clicked() {
+            let ctx = ui.ctx().clone();
+            editor.perform(entry.action, &ctx);
+            ui.close();
+        }
+    }
 }
 
 /// The scenes that were shown last.

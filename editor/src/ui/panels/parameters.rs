@@ -1,10 +1,10 @@
 //! Parameters as widgets: of the pipeline and of the scene.
 
-use egui::{Align, ComboBox, Layout, RichText, ScrollArea, Slider, TextEdit, Ui};
+use egui::{Align, ComboBox, Layout, RichText, ScrollArea, TextEdit, Ui};
 use lightbench::script::{Scene, SettingValue, Settings};
 use lightbench::world::{Entity, Name};
 
-use super::widgets::words;
+use super::widgets::{slider, words};
 use crate::ui::editor::Editor;
 use crate::ui::messages::say;
 use crate::ui::workbench::fields::{Field, FieldKind};
@@ -185,11 +185,9 @@ fn widget(ui: &mut Ui, field: &Field, label: egui::Id) -> Option<Change> {
     match (&field.kind, &field.value) {
         (FieldKind::Number { min, max, whole }, value) => {
             let mut number = value.to_string().parse().unwrap_or(*min);
-            let mut slider = Slider::new(&mut number, *min..=*max);
+            let mut slider = slider(&mut number, *min..=*max);
             if *whole {
                 slider = slider.integer();
-            } else {
-                slider = slider.max_decimals(3);
             }
             if !field.unit.is_empty() {
                 slider = slider.suffix(format!(" {}", field.unit));

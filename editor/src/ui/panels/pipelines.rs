@@ -77,9 +77,21 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     if let Some(name) = wanted {
         editor.workbench.select_pipeline(&name);
     }
-    if let Some((key, name)) = given
-        && let Err(error) = editor.kept.give_key(key, &name)
-    {
-        editor.workbench.log.warn(error);
+    if let Some((key, name)) = given {
+        let before = editor.kept.favourites.clone();
+        let kept = editor.kept.give_key(key, &name);
+        editor.tell_if_not_kept(kept);
+        let after = editor.kept.favourites.clone();
+        editor.workbench.note_number_keys(key, &name, before, after);
+    }
+}
+
+impl Editor {
+    /// Gives number keys to pipelines as they had them, where that was taken back or done again.
+    pub(in crate::ui) fn take_number_keys(&mut self) {
+        if let Some(keys) = self.workbench.undo.take_number_keys() {
+            let kept = self.kept.give_keys(keys);
+            self.tell_if_not_kept(kept);
+        }
     }
 }

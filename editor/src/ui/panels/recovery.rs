@@ -26,8 +26,11 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     };
     let when = left.written.map_or_else(String::new, ago);
     let mut lines = Vec::new();
-    for (scene, kept) in &session.overlays {
+    for (scene, kept) in session.overlays.iter().filter(|(_, kept)| !kept.is_empty()) {
         lines.push(say!("recovery.changes", scene = scene, count = kept.len()));
+    }
+    for (scene, typed) in &session.typed {
+        lines.push(say!("recovery.typed", scene = scene, count = typed.len()));
     }
     if lines.is_empty() {
         lines.push(say!("recovery.no_changes").to_owned());

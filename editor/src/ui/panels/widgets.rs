@@ -1,6 +1,10 @@
 //! Small pieces that several panels use.
 
-use egui::{Color32, ComboBox, Label, Response, RichText, Sense, Stroke, Ui, pos2};
+use std::ops::RangeInclusive;
+
+use egui::{
+    Color32, ComboBox, Label, Response, RichText, Sense, Slider, SliderClamping, Stroke, Ui, pos2,
+};
 use lightbench::render::Place;
 
 use crate::ui::coding::is_in_a_file;
@@ -105,6 +109,27 @@ pub fn bytes(value: u64) -> String {
     format!("{scaled:.decimals$} {unit}")
 }
 
+/// A number with as many digits as tell it from all others: of those of 32 bits, where it is one of these.
+pub fn exact(number: f64) -> String {
+    let single = number as f32;
+    let short = single.to_string();
+    let is_told = f64::from(single) == number || short.parse() == Ok(number);
+    let text = if is_told { short } else { number.to_string() };
+    // The sign that egui has for numbers.
+    text.replace('-', "−")
+}
+
+/// A slider that shows all of its number and leaves it as it is until somebody moves it: others would round
+/// it.
+pub fn slider<Number: egui::emath::Numeric>(
+    number: &mut Number,
+    range: RangeInclusive<Number>,
+) -> Slider<'_> {
+    Slider::new(number, range)
+        .clamping(SliderClamping::Edits)
+        .custom_formatter(|number, _| exact(number))
+}
+
 /// Milliseconds, or the sign for a missing number.
 pub fn ms(value: Option<f64>) -> String {
     value.map_or_else(|| MISSING.to_owned(), |ms| format!("{ms:.2}"))
@@ -166,5 +191,20 @@ mod tests {
         assert_eq!(words("light_volumes"), "Light volumes");
         assert_eq!(words(""), "");
         assert_eq!(ms(None), MISSING);
+    }
+
+    #[test]
+    fn a_number_is_told_exactly_and_no_more() {
+        assert_eq!(exact(0.12345), "0.12345");
+        assert_eq!(exact(f64::from(0.1_f32)), "0.1");
+        assert_eq!(exact(0.1 + 0.2), "0.30000000000000004");
+        assert_eq!(exact(-2.0), "−2");
+        assert_eq!(exact(1_448.0), "1448");
+        // Of all numbers of 32 bits, some thousands: what is shown reads back as the same one.
+        for bits in (0..0x7f80_0000_u32).step_by(97_001) {
+            let number = f32::from_bits(bits);
+            let shown = exact(number.into());
+            assert_eq!(shown.parse::<f32>().map(f32::to_bits), Ok(bits), "{shown}");
+        }
     }
 }

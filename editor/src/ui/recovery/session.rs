@@ -9,6 +9,7 @@ use serde_json::{Map, Value, json};
 
 use super::words::{overlays_from, overlays_to};
 use crate::ui::workbench::comparing::Mode;
+use crate::ui::workbench::typed::Typed;
 use crate::ui::workbench::undo::Dials;
 
 /// The version of the format. A file of another one is left alone.
@@ -35,6 +36,8 @@ pub struct Session {
     pub pipelines: BTreeMap<String, Settings>,
     /// What was changed by hand, by the names of the scenes.
     pub overlays: BTreeMap<String, KeptOverlays>,
+    /// Lines of the console that have changed scenes, by the names of the scenes.
+    pub typed: BTreeMap<String, Vec<Typed>>,
 }
 
 impl Session {
@@ -58,6 +61,7 @@ impl Session {
             "scenes": all_to(&self.scenes),
             "pipelines": all_to(&self.pipelines),
             "overlays": overlays,
+            "typed": typed_to(&self.typed),
         })
         .to_string()
     }
@@ -83,8 +87,35 @@ impl Session {
             scenes: all_from(&value["scenes"])?,
             pipelines: all_from(&value["pipelines"])?,
             overlays: overlays.collect::<Option<_>>()?,
+            typed: typed_from(&value["typed"])?,
         })
     }
+}
+
+fn typed_to(all: &BTreeMap<String, Vec<Typed>>) -> Value {
+    let one = |it: &Typed| json!([it.line, it.time, it.edits, it.changes]);
+    let all = all.iter();
+    let all = all.map(|(name, lines)| (name.clone(), lines.iter().map(one).collect()));
+    Value::Object(all.collect())
+}
+
+/// Files of before there were such lines have none.
+fn typed_from(value: &Value) -> Option<BTreeMap<String, Vec<Typed>>> {
+    if value.is_null() {
+        return Some(BTreeMap::new());
+    }
+    let one = |value: &Value| {
+        Some(Typed {
+            line: value[0].as_str()?.to_owned(),
+            time: value[1].as_f64()?,
+            edits: usize::try_from(value[2].as_u64()?).ok()?,
+            changes: value[3].as_bool()?,
+        })
+    };
+    let lines = |value: &Value| value.as_array()?.iter().map(one).collect::<Option<_>>();
+    let all = value.as_object()?.iter();
+    all.map(|(name, value)| Some((name.clone(), lines(value)?)))
+        .collect()
 }
 
 fn all_to(all: &BTreeMap<String, Settings>) -> Value {

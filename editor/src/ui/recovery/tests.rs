@@ -9,6 +9,7 @@ use lightbench::world::{ComponentKind, Transform, Value as Field};
 
 use super::*;
 use crate::ui::workbench::comparing::Mode;
+use crate::ui::workbench::typed::Typed;
 use crate::ui::workbench::undo::Dials;
 
 /// A session with one of everything.
@@ -85,6 +86,12 @@ fn session() -> Session {
         .with("lights", 256.0)
         .with("on", true)
         .with("model", "a=b");
+    let typed = Typed {
+        line: "spawn(\"ä\");\n".to_owned(),
+        time: 0.1,
+        edits: 3,
+        changes: true,
+    };
     Session {
         project: Some("/tmp/a project".into()),
         on_purpose: false,
@@ -105,6 +112,7 @@ fn session() -> Session {
         scenes: BTreeMap::from([("a".to_owned(), settings.clone())]),
         pipelines: BTreeMap::from([("b".to_owned(), settings)]),
         overlays: BTreeMap::from([("a".to_owned(), overlays)]),
+        typed: BTreeMap::from([("a".to_owned(), vec![typed])]),
     }
 }
 

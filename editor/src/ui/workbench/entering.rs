@@ -33,6 +33,8 @@ impl Workbench {
         if let Some(overlays) = self.overlays.get_mut(&name) {
             overlays.lay_on(scene);
         }
+        // What lines did was done to the scene before.
+        (self.typed, self.saved_lines) = Default::default();
         if again {
             // Who works on a file has chosen what to look through.
             scene.take_pipeline_choice();
@@ -60,6 +62,9 @@ impl Workbench {
             } else {
                 self.follow_pipeline_choice();
             }
+        }
+        if !self.is_arriving() {
+            self.run_again(None);
         }
         self.canvas.invalidate();
     }

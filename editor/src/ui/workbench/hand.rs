@@ -2,12 +2,13 @@
 
 use lightbench::render::Problem;
 use lightbench::script::LogLine;
-use lightbench::script::overlays::{Overlays, line};
+use lightbench::script::overlays::{AssetEdit, Edit, Overlays, line};
 use lightbench::world::{Entity, Value};
 
 use super::Workbench;
 use super::history::Script;
 use super::log::Level;
+use super::typed::Typed;
 use super::undo::{Change, Content, Target};
 use crate::ui::messages::say;
 
@@ -198,14 +199,35 @@ impl Workbench {
 
     /// All that was changed by hand, as lines for the end of the scene's script.
     pub fn overlay_lines(&self) -> String {
-        let edits = self.overlays_now().into_iter().flat_map(Overlays::edits);
-        let edits = edits.map(|(edit, _)| {
-            let line = edit.line();
-            line.unwrap_or_else(|| say!("hand.scripts_have_no_words_for_it", words = edit.words()))
-        });
+        let on_scene = self.overlays_now().zip(self.scenes.scene());
+        let edits = on_scene
+            .into_iter()
+            .flat_map(|(all, scene)| all.edit_lines(scene));
+        // A material is made as it is now, for all that has it now, by their last names.
+        let is_late = |edit: &Edit| {
+            matches!(
+                edit,
+                Edit::Assets(
+                    AssetEdit::Paint { .. }
+                        | AssetEdit::RenameMaterial { .. }
+                        | AssetEdit::DeleteMaterial { .. }
+                )
+            )
+        };
+        let (mut early, mut late) = (Vec::new(), Vec::new());
+        for (edit, lines) in edits {
+            let words = edit.words();
+            let lines = lines.unwrap_or_else(|why| format!("// {words}: {why}"));
+            match is_late(edit) {
+                true if late.contains(&lines) => {}
+                true => late.push(lines),
+                false => early.push(lines),
+            }
+        }
         let all = self.overlays_now().into_iter().flat_map(Overlays::iter);
         let lines = all.filter_map(|(entity, path, overlay)| line(entity, path, &overlay.value));
-        edits.chain(lines).collect::<Vec<_>>().join("\n")
+        let structure = early.into_iter().chain(late);
+        structure.chain(lines).collect::<Vec<_>>().join("\n")
     }
 
     pub(super) fn on_overlays(
@@ -237,6 +259,7 @@ impl Workbench {
     /// Runs a line as scene script on the scene on screen. `None` where there is no scene.
     pub fn evaluate(&mut self, line: &str) -> Option<Evaluated> {
         let before = self.text_of_scene()?;
+        let (time, edits) = (self.clock.time(), self.count_of_edits());
         let what = say!("history.console", line = line.trim());
         self.as_moment("console", &what, |this| {
             let evaluated = this.evaluate_now(line);
@@ -244,7 +267,16 @@ impl Workbench {
             let is_silent = |it: &Evaluated| matches!(it.result, Ok(None)) && it.printed.is_empty();
             let works = evaluated.as_ref().is_some_and(|it| it.result.is_ok());
             let silent = evaluated.as_ref().is_some_and(is_silent);
-            let changed = silent || works && this.text_of_scene() != Some(before);
+            let changes = works && this.text_of_scene() != Some(before);
+            let changed = silent || changes;
+            if changed {
+                this.typed.push(Typed {
+                    line: line.to_owned(),
+                    time,
+                    edits,
+                    changes,
+                });
+            }
             (evaluated, changed)
         })
     }
@@ -256,7 +288,7 @@ impl Workbench {
         Some(scene.to_text().unwrap_or_default())
     }
 
-    fn evaluate_now(&mut self, line: &str) -> Option<Evaluated> {
+    pub(super) fn evaluate_now(&mut self, line: &str) -> Option<Evaluated> {
         let scene = self.scenes.scene_mut()?;
         let result = scene.evaluate(line);
         let printed = scene.take_log();

@@ -47,6 +47,7 @@ pub mod stepping;
 pub mod structure;
 pub mod timing;
 pub mod trends;
+pub mod typed;
 pub mod undo;
 mod viewing;
 pub mod viewports;
@@ -86,6 +87,7 @@ use self::selection::Selection;
 use self::stepping::Stop;
 use self::timing::Timings;
 use self::trends::Trends;
+use self::typed::{Coming, Typed};
 use self::undo::Undo;
 use self::viewing::Arriving;
 use self::viewports::Viewport;
@@ -115,6 +117,12 @@ pub struct Workbench {
     overlays: BTreeMap<String, Overlays>,
     /// What lay over them when they were saved.
     saved: Saved,
+    /// Lines of the console that have changed the scene on screen, oldest first.
+    typed: Vec<Typed>,
+    /// Those that are in a file.
+    saved_lines: Vec<Typed>,
+    /// Lines that wait for their scenes.
+    coming: Vec<Coming>,
     /// What stop gives back.
     before: Option<Arc<Before>>,
     /// Whether a mistake that is shown came up while time ran.
@@ -229,6 +237,9 @@ impl Workbench {
             worker: options.worker,
             overlays: BTreeMap::new(),
             saved: Saved::new(),
+            typed: Vec::new(),
+            saved_lines: Vec::new(),
+            coming: Vec::new(),
             before: None,
             ran_into_a_problem: false,
             noted_time: None,

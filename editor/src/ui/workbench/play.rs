@@ -7,6 +7,7 @@ use lightbench::script::overlays::Overlays;
 
 use super::Workbench;
 use super::clock::Clock;
+use super::typed::Typed;
 use crate::ui::messages::say;
 
 /// The scene as it was when time began to run.
@@ -16,6 +17,8 @@ pub(super) struct Before {
     clock: Clock,
     /// What lay on it then.
     overlays: Overlays,
+    /// Lines of the console that had changed it by then.
+    typed: Vec<Typed>,
 }
 
 impl Workbench {
@@ -87,6 +90,7 @@ impl Workbench {
             return;
         };
         scene.restore(&before.scene);
+        self.typed.clone_from(&before.typed);
         if let Some(overlays) = self
             .overlays
             .get_mut(self.scenes.shown().unwrap_or_default())
@@ -112,6 +116,7 @@ impl Workbench {
                 scene: scene.snapshot(),
                 clock,
                 overlays: self.overlays_now().cloned().unwrap_or_default(),
+                typed: self.typed.clone(),
             })
         });
     }

@@ -20,6 +20,8 @@ impl Workbench {
         // What was done by hand was done to the scenes of the former one.
         self.overlays.clear();
         self.saved.clear();
+        (self.typed, self.saved_lines) = Default::default();
+        self.coming.clear();
         self.forget_views();
         self.notebook = Notebook::default();
         self.watch = Watch::start(&files, &self.wake, &mut self.log);

@@ -1,12 +1,13 @@
 //! All that somebody works on, to be kept, and going on with what was kept.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use lightbench::script::Settings;
 use lightbench::script::overlays::{KeptOverlays, Overlays};
 
 use super::Workbench;
+use super::typed::Coming;
 use super::undo::Chosen;
 use crate::ui::messages::say;
 use crate::ui::recovery::Session;
@@ -34,6 +35,19 @@ impl Workbench {
         let scenes = scenes.map(|(name, all)| (self.files.display(name), all.clone()));
         let overlays = self.overlays.iter().filter(|(_, all)| !all.is_empty());
         let overlays = overlays.map(|(name, all)| (self.files.display(name), all.kept()));
+        let mut overlays: BTreeMap<String, KeptOverlays> = overlays.collect();
+        let mut typed = BTreeMap::new();
+        if !self.typed.is_empty() {
+            let shown = self.scenes.shown().unwrap_or_default();
+            typed.insert(self.files.display(shown), self.typed.clone());
+        }
+        // What still waits for a scene that could not be shown.
+        for coming in &self.coming {
+            let name = self.files.display(&coming.scene);
+            let own = overlays.entry(name.clone()).or_default();
+            own.edits.extend(coming.edits.iter().cloned());
+            typed.insert(name, coming.lines.iter().cloned().collect());
+        }
         Some(Session {
             project: self.files.project().map(Path::to_owned),
             on_purpose: false,
@@ -43,7 +57,8 @@ impl Workbench {
             dials: self.dials(),
             scenes: scenes.collect(),
             pipelines: self.pipelines.all_settings().map(named).collect(),
-            overlays: overlays.collect(),
+            overlays,
+            typed,
         })
     }
 
@@ -60,10 +75,19 @@ impl Workbench {
     }
 
     fn resume_quietly(&mut self, session: &Session) -> Result<(), String> {
-        for (name, kept) in &session.overlays {
+        self.coming.clear();
+        let named: BTreeSet<&String> = session
+            .overlays
+            .keys()
+            .chain(session.typed.keys())
+            .collect();
+        for name in named {
+            let mut kept = session.overlays.get(name).cloned().unwrap_or_default();
+            let lines = session.typed.get(name).map_or(&[][..], Vec::as_slice);
             let name = self.name_inside(name);
-            self.overlays
-                .insert(name, Overlays::from_kept(kept.clone()));
+            let coming = Coming::new(name.clone(), lines, &mut kept.edits);
+            self.coming.extend(coming);
+            self.overlays.insert(name, Overlays::from_kept(kept));
         }
         for (name, settings) in &session.scenes {
             let name = self.name_inside(name);
@@ -112,13 +136,19 @@ impl Workbench {
             let saved = self.saved.get(*name);
             !kept.is_empty() && saved != Some(kept)
         });
-        unsaved
+        let mut unsaved: BTreeMap<String, usize> = unsaved
             .map(|(name, kept)| (name.clone(), kept.len()))
-            .collect()
+            .collect();
+        let lines = self.unsaved_lines();
+        if let Some(name) = self.scenes.shown().filter(|_| lines > 0) {
+            *unsaved.entry(name.to_owned()).or_default() += lines;
+        }
+        unsaved.into_iter().collect()
     }
 
     /// The scene on screen is in a file as it is now.
     pub(super) fn was_saved(&mut self) {
+        self.saved_lines.clone_from(&self.typed);
         if let (Some(name), Some(all)) = (self.scenes.shown(), self.overlays_now()) {
             let (name, kept) = (name.to_owned(), all.kept());
             self.saved.insert(name, kept);

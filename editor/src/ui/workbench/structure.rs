@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 
 use lightbench::script::Scene;
-use lightbench::script::overlays::{Edit, LOCKED, NewKind, Who, topmost};
+use lightbench::script::overlays::{AssetEdit, Edit, LOCKED, NewKind, Who, topmost};
 use lightbench::world::glam::{Affine3A, Vec3};
 use lightbench::world::{
     ComponentKind, Entity, Light, MeshRenderer, Transform, Value, World, WorldMatrix,
@@ -314,9 +314,18 @@ impl Workbench {
                 .set(scene, overlays.made_last().iter().copied());
         }
         self.selection.names_changed(scene);
-        if let Some(line) = edit.line() {
-            self.history.add("", edit.words(), Script::Scene, line);
-        }
+        let lines = overlays.edit_lines(scene).next_back();
+        let line = match lines {
+            Some((_, Ok(lines))) => lines,
+            Some((_, Err(why))) => format!("// {why}"),
+            None => String::new(),
+        };
+        // The way of a slider is one line.
+        let target = match &edit {
+            Edit::Assets(AssetEdit::Paint { .. }) => edit.words(),
+            _ => String::new(),
+        };
+        self.history.add(&target, edit.words(), Script::Scene, line);
         self.canvas.invalidate();
         self.absorb_view();
         Ok(edit)

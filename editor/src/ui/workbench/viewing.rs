@@ -204,6 +204,7 @@ impl Workbench {
         while began.elapsed() < SLICE {
             let next = self.arriving.as_mut().and_then(|way| way.steps.next());
             let Some((time, step)) = next else {
+                self.run_again(None);
                 self.clock.playing = self.arriving.take().is_some_and(|way| way.then_plays);
                 self.absorb_view();
                 if let Some(left_out) = self.left_out_of_view() {
@@ -216,7 +217,9 @@ impl Workbench {
             }
             self.clock.set(time);
             self.update_scene(step);
+            self.run_again(Some(time));
             if self.ran_into_a_problem {
+                self.run_again(None);
                 // It is shown; there is no way on.
                 self.arriving = None;
                 return;

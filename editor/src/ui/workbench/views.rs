@@ -1,9 +1,11 @@
-//! What was looked at: the camera and what was chosen, with a way back and forth of its own.
+//! What was looked at: the camera, what was chosen and how the window was arranged, with a way back and
+//! forth of its own.
 //!
 //! Who changes something, turns the view to look at it and takes the change back wants the view to stay.
 //! So views are no steps among changes, as in most programs of the kind. They are those of the first
 //! viewport.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lightbench::world::{Entity, Name};
@@ -12,6 +14,7 @@ use super::Workbench;
 use super::sight::Sight;
 use super::viewports::Viewport;
 use crate::ui::messages::say;
+use crate::ui::window_view::WindowView;
 use crate::viewpoint::Eye;
 
 /// A camera that moves on within this time is in the same gesture, as when a wheel is turned.
@@ -25,6 +28,14 @@ const CAPACITY: usize = 1_000;
 pub struct Looked {
     /// What led there, in words.
     pub what: String,
+    /// What was seen of the scene; `None` where it was another one than that on screen.
+    seen: Option<Seen>,
+    window: Arc<WindowView>,
+}
+
+/// What was seen of a scene.
+#[derive(Clone, Debug, PartialEq)]
+struct Seen {
     eye: Eye,
     chosen: Vec<Entity>,
     names: Vec<String>,
@@ -42,6 +53,8 @@ pub struct Views {
     held: bool,
     /// Whether a change counts as made by the program.
     absorbs: bool,
+    /// How the window is to be arranged, until it is.
+    wanted: Option<Arc<WindowView>>,
     revision: u64,
 }
 
@@ -61,6 +74,32 @@ impl Views {
         self.revision
     }
 
+    /// How the window is to be arranged, where another view was gone to.
+    pub fn take_window(&mut self) -> Option<Arc<WindowView>> {
+        self.wanted.take()
+    }
+
+    /// Another scene is on screen: of the old one nothing can be looked at any more, but the window can be
+    /// arranged as it was.
+    fn leave_scene(&mut self) {
+        let mut at = 0;
+        let mut kept: Vec<Looked> = Vec::new();
+        for (index, looked) in std::mem::take(&mut self.all).into_iter().enumerate() {
+            if kept
+                .last()
+                .is_none_or(|last| !Arc::ptr_eq(&last.window, &looked.window))
+            {
+                let seen = None;
+                kept.push(Looked { seen, ..looked });
+            }
+            if index <= self.at {
+                at = kept.len() - 1;
+            }
+        }
+        self.absorbs = !kept.is_empty();
+        (self.all, self.at, self.moved) = (kept, at, None);
+    }
+
     /// The next change of the camera begins a gesture of its own.
     fn seal(&mut self) {
         self.moved = None;
@@ -76,16 +115,19 @@ impl Views {
             *last = Looked { what, ..new };
             return;
         }
-        let turned = last.eye != new.eye;
-        if !turned && last.chosen == new.chosen {
+        let eye = |looked: &Looked| looked.seen.as_ref().map(|seen| seen.eye.clone());
+        let turned = eye(last) != eye(&new);
+        let same_window = Arc::ptr_eq(&last.window, &new.window);
+        if last.seen == new.seen && same_window {
             return;
         }
         self.revision += 1;
         let goes_on = self
             .moved
             .is_some_and(|moved| held || now.saturating_duration_since(moved) < GESTURE);
-        let same_choice = last.chosen == new.chosen;
-        if turned && same_choice && goes_on {
+        let chosen = |looked: &Looked| looked.seen.as_ref().map(|seen| seen.chosen.clone());
+        let eye_alone = turned && same_window && chosen(last) == chosen(&new);
+        if eye_alone && goes_on {
             let what = std::mem::take(&mut last.what);
             *last = Looked { what, ..new };
         } else {
@@ -101,35 +143,38 @@ impl Views {
 }
 
 impl Workbench {
-    /// Takes note of where the camera is and what is chosen. `held` says that a mouse button or a key is
-    /// held down: until it is let go a gesture goes on.
-    pub fn note_view(&mut self, now: Instant, held: bool) {
+    /// Takes note of where the camera is, what is chosen and how the window is arranged. `held` says that a
+    /// mouse button or a key is held down: until it is let go a gesture goes on.
+    pub fn note_view(&mut self, now: Instant, held: bool, window: &Arc<WindowView>) {
         let was_held = std::mem::replace(&mut self.views.held, held);
         if held && !was_held {
             self.views.seal();
         }
-        self.note_present_view(now, held);
+        self.note_present_view(now, held, window);
         if was_held && !held {
             self.views.seal();
         }
     }
 
-    fn note_present_view(&mut self, now: Instant, held: bool) {
+    fn note_present_view(&mut self, now: Instant, held: bool, window: &Arc<WindowView>) {
         if self.is_between_scenes() || self.scenes.scene().is_none() {
             return;
         }
         let eye = self.eye(Viewport::First);
         let chosen: Vec<Entity> = self.selection.entities().collect();
         let last = self.views.all.get(self.views.at);
-        let same = last.is_some_and(|last| last.eye == eye && last.chosen == chosen);
-        if same && !self.views.absorbs {
+        let rearranged = last.filter(|last| !Arc::ptr_eq(&last.window, window));
+        let seen = last.and_then(|last| last.seen.as_ref());
+        let turned = seen.is_none_or(|seen| seen.eye != eye);
+        let same = !turned && seen.is_some_and(|seen| seen.chosen == chosen);
+        if same && rearranged.is_none() && !self.views.absorbs {
             return;
         }
         let names = self.names_of(&chosen);
-        let turned = last.is_none_or(|last| last.eye != eye);
-        let what = match turned {
-            true => self.words_for_eye(&eye),
-            false => match names.as_slice() {
+        let what = match (rearranged, turned) {
+            (Some(last), _) => window.words_since(&last.window),
+            (None, true) => self.words_for_eye(&eye),
+            (None, false) => match names.as_slice() {
                 [] => say!("history.nothing_chosen").to_owned(),
                 [one] if one.is_empty() => {
                     say!("history.chosen", name = say!("entities.what_has_no_name"))
@@ -140,9 +185,8 @@ impl Workbench {
         };
         let looked = Looked {
             what,
-            eye,
-            chosen,
-            names,
+            seen: Some(Seen { eye, chosen, names }),
+            window: Arc::clone(window),
         };
         self.views.note(looked, now, held);
     }
@@ -152,12 +196,9 @@ impl Workbench {
         self.views.absorbs = true;
     }
 
-    /// Forgets all views, as where another scene is on screen.
+    /// Forgets what was seen of the scene, as where another one is on screen.
     pub(super) fn forget_views(&mut self) {
-        self.views = Views {
-            revision: self.views.revision,
-            ..Views::default()
-        };
+        self.views.leave_scene();
     }
 
     /// Back to the view before. Returns whether there was one.
@@ -186,10 +227,13 @@ impl Workbench {
         self.views.at = index;
         self.views.revision += 1;
         self.views.seal();
-        self.look_with(Viewport::First, looked.eye);
-        if let Some(scene) = self.scenes.scene() {
+        self.views.wanted = Some(looked.window);
+        if let Some(seen) = &looked.seen {
+            self.look_with(Viewport::First, seen.eye.clone());
+        }
+        if let (Some(scene), Some(seen)) = (self.scenes.scene(), &looked.seen) {
             // In a scene that was loaded anew the same names stand for other entities.
-            let now = looked.chosen.iter().zip(&looked.names);
+            let now = seen.chosen.iter().zip(&seen.names);
             let found = now.filter_map(|(entity, name)| match name.as_str() {
                 "" => scene.world.contains(*entity).then_some(*entity),
                 name => scene.world.find(name),
@@ -235,12 +279,15 @@ impl Workbench {
 mod tests {
     use super::*;
 
-    fn looked(name: &str, chosen: &[Entity]) -> Looked {
+    fn looked_in(window: &Arc<WindowView>, name: &str, chosen: &[Entity]) -> Looked {
         Looked {
             what: name.to_owned(),
-            eye: Eye::Named(name.to_owned()),
-            chosen: chosen.to_vec(),
-            names: vec![String::new(); chosen.len()],
+            seen: Some(Seen {
+                eye: Eye::Named(name.to_owned()),
+                chosen: chosen.to_vec(),
+                names: vec![String::new(); chosen.len()],
+            }),
+            window: Arc::clone(window),
         }
     }
 
@@ -250,6 +297,8 @@ mod tests {
 
     #[test]
     fn a_gesture_is_one_view_and_a_new_one_ends_the_way_forth() {
+        let window = Arc::default();
+        let looked = |name: &str, chosen: &[Entity]| looked_in(&window, name, chosen);
         let mut views = Views::default();
         let began = Instant::now();
         let after = |ms: u64| began + Duration::from_millis(ms);
@@ -269,11 +318,34 @@ mod tests {
         views.absorbs = true;
         views.note(looked("f", &[]), after(40_000), false);
         assert_eq!(words(&views), ["home", "a", "e"], "the program did it");
-        assert_eq!(views.all()[2].eye, Eye::Named("f".to_owned()));
+        assert_eq!(views.all()[2].seen, looked("f", &[]).seen);
         for number in 0..CAPACITY as u64 + 9 {
             let name = number.to_string();
             views.note(looked(&name, &[]), after(50_000 + number * 1000), false);
         }
         assert_eq!(views.all().len(), CAPACITY);
+    }
+    #[test]
+    fn of_another_scene_the_window_alone_stays() {
+        let windows: [Arc<WindowView>; 2] = std::array::from_fn(|_| Arc::default());
+        let began = Instant::now();
+        let after = |seconds: u64| began + Duration::from_secs(seconds);
+        let mut views = Views::default();
+        for (seconds, (name, window)) in [("a", 0), ("b", 0), ("c", 1), ("d", 1)]
+            .into_iter()
+            .enumerate()
+        {
+            let looked = looked_in(&windows[window], name, &[]);
+            views.note(looked, after(seconds as u64 * 9), false);
+        }
+        assert_eq!((words(&views).len(), views.at()), (4, 3));
+        views.leave_scene();
+        assert_eq!(words(&views), ["a", "c"]);
+        assert_eq!(views.at(), 1);
+        assert!(views.all().iter().all(|looked| looked.seen.is_none()));
+        let home = looked_in(&windows[1], "home", &[]);
+        views.note(home, after(99), false);
+        assert_eq!(words(&views), ["a", "c"], "the scene came by itself");
+        assert!(views.all()[1].seen.is_some());
     }
 }

@@ -6,7 +6,8 @@ use lightbench_assets::{Material, MeshId, Reflection, TextureId};
 use lightbench_world::glam::Vec3;
 
 use super::faces::Corners;
-use crate::api::{Arguments, spell_call, spell_number, spell_text};
+use super::overlays::{spell_point, spell_single};
+use crate::api::{Arguments, spell_text};
 
 /// The calls that made each mesh and each texture. Materials are their own numbers.
 #[derive(Clone, Debug, Default)]
@@ -62,13 +63,11 @@ pub(super) fn then(recipe: Option<String>, call: &Arguments) -> Option<String> {
     Some(format!("{}.{}", recipe?, call.spelled()?))
 }
 
-/// The calls that make a material. `texture` gives the name of a texture in the file.
+/// The calls that make a material. `texture` gives those that make a texture.
 pub(super) fn material(
     material: &Material,
     texture: impl Fn(TextureId) -> Option<String>,
 ) -> Option<String> {
-    let color = |color: Vec3| color.as_dvec3();
-    let number = |number: f32| spell_number(number.into());
     let Material {
         name,
         base_color,
@@ -84,39 +83,43 @@ pub(super) fn material(
     let mut recipe = format!(
         "material({}).{}",
         spell_text(name),
-        spell_call("color", color(*base_color)),
+        call("color", *base_color),
     );
     if *specular == Vec3::splat(specular.x) {
-        recipe += &format!(".specular({})", number(specular.x));
+        recipe += &format!(".specular({})", spell_single(specular.x));
     } else {
-        recipe += &format!(".{}", spell_call("specular", color(*specular)));
+        recipe += &format!(".{}", call("specular", *specular));
     }
     recipe += &match *reflection {
-        Reflection::BlinnPhong { power } => format!(".power({})", number(power)),
-        Reflection::Phong { power } => format!(".phong({})", number(power)),
-        Reflection::Beckmann { roughness } => format!(".beckmann({})", number(roughness)),
-        Reflection::Ggx { roughness } => format!(".ggx({})", number(roughness)),
+        Reflection::BlinnPhong { power } => format!(".power({})", spell_single(power)),
+        Reflection::Phong { power } => format!(".phong({})", spell_single(power)),
+        Reflection::Beckmann { roughness } => format!(".beckmann({})", spell_single(roughness)),
+        Reflection::Ggx { roughness } => format!(".ggx({})", spell_single(roughness)),
         Reflection::Ward { along, across } => {
-            format!(".ward({}, {})", number(along), number(across))
+            format!(".ward({}, {})", spell_single(along), spell_single(across))
         }
     };
     if *emissive != Vec3::ZERO {
-        recipe += &format!(".{}", spell_call("emissive", color(*emissive)));
+        recipe += &format!(".{}", call("emissive", *emissive));
     }
     for (call, id) in [("texture", base_color_texture), ("normals", normal_texture)] {
         if let Some(id) = id {
-            let name = spell_text(&texture(*id)?);
-            recipe += &format!(".{call}(texture({name}))");
+            recipe += &format!(".{call}({})", texture(*id)?);
         }
     }
     if let Some(cutoff) = alpha_cutoff {
-        recipe += &format!(".cutoff({})", number(*cutoff));
+        recipe += &format!(".cutoff({})", spell_single(*cutoff));
     }
     if *opacity < 1.0 {
-        recipe += &format!(".opacity({})", number(*opacity));
+        recipe += &format!(".opacity({})", spell_single(*opacity));
     }
     if *two_sided {
         recipe += ".two_sided()";
     }
     Some(recipe)
+}
+
+/// A call with three numbers of 32 bits.
+fn call(name: &str, numbers: Vec3) -> String {
+    format!("{name}({})", spell_point(numbers))
 }

@@ -34,7 +34,7 @@ use super::shapes::{MeshHandle, Shape};
 use super::shelf::{AssetId, Marks, Shelf};
 use super::state::KeptState;
 use super::textures::Pattern;
-use crate::api::{Api, Mistake};
+use crate::api::{Api, Mistake, spell_text};
 use crate::host::Host;
 use crate::limits::Limits;
 use crate::settings::Settings;
@@ -305,7 +305,10 @@ impl Saved {
             "",
         )?;
         definitions.extend(textures_defined);
-        let texture_name = |id| textures.get(first.get(&id)?).cloned();
+        let texture_name = |id| {
+            let name = textures.get(first.get(&id)?)?;
+            Some(format!("texture({})", spell_text(name)))
+        };
         let (mut materials, materials_defined) = define(
             "material",
             surfaces().map(|(id, surface)| (id, &*surface.name)),

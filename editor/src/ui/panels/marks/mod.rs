@@ -37,6 +37,19 @@ pub enum Mark {
     OfChosen,
 }
 
+impl Mark {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Grid,
+        Self::Icons,
+        Self::Selection,
+        Self::Handles,
+        Self::Edges,
+        Self::Normals,
+        Self::OfChosen,
+    ];
+}
+
 /// What of it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]

@@ -1,15 +1,13 @@
 //! Values of materials as widgets.
 
-use std::ops::RangeInclusive;
-
-use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
+use egui::{ComboBox, DragValue, Ui};
 use lightbench::assets::{Reflection, ReflectionModel};
 use lightbench::script::overlays::{Listed, Picture, SurfaceField, SurfaceValue};
 use lightbench::world::glam::Vec3;
 
 use super::fields::align;
 use crate::ui::messages::{message, say, text};
-use crate::ui::panels::widgets::words;
+use crate::ui::panels::widgets::{slider, words};
 
 /// The alpha below which points are holes, where that is switched on.
 const CUTOFF: f32 = 0.5;
@@ -47,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, row: &Row, label: egui::Id) -> Option<Done> {
         }
         SurfaceValue::Share(share) => {
             let mut share = *share;
-            let slider = slider(&mut share, 0.0..=1.0).max_decimals(3);
+            let slider = slider(&mut share, 0.0..=1.0);
             let changed = ui.add(slider).labelled_by(label).changed();
             changed.then_some(Done::Set(SurfaceValue::Share(share)))
         }
@@ -57,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, row: &Row, label: egui::Id) -> Option<Done> {
                 return set(SurfaceValue::Cutoff(on.then_some(CUTOFF)));
             }
             let mut alpha = (*cutoff)?;
-            let slider = slider(&mut alpha, 0.0..=1.0).max_decimals(3);
+            let slider = slider(&mut alpha, 0.0..=1.0);
             let changed = ui.add(slider).labelled_by(label).changed();
             changed.then_some(Done::Set(SurfaceValue::Cutoff(Some(alpha))))
         }
@@ -67,11 +65,6 @@ pub(super) fn show(ui: &mut Ui, row: &Row, label: egui::Id) -> Option<Done> {
             changed.then_some(Done::Set(SurfaceValue::Switch(on)))
         }
     }
-}
-
-/// A slider that leaves what it shows as it is until somebody moves it: others would round it.
-fn slider(number: &mut f32, range: RangeInclusive<f32>) -> Slider<'_> {
-    Slider::new(number, range).clamping(SliderClamping::Edits)
 }
 
 /// The name of a value before its widget.
@@ -286,9 +279,7 @@ fn parameter(ui: &mut Ui, key: &'static str, number: f32, is_power: bool) -> Opt
     ui.horizontal(|ui| {
         ui.add_space(10.0 + ui.spacing().item_spacing.x);
         let label = name(ui, text(key), about);
-        let slider = slider(&mut number, range.clone())
-            .logarithmic(true)
-            .max_decimals(4);
+        let slider = slider(&mut number, range.clone()).logarithmic(true);
         let changed = ui.add(slider).labelled_by(label).changed();
         // The way over the logarithm may end a bit outside.
         changed.then(|| number.clamp(*range.start(), *range.end()))

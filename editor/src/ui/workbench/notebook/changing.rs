@@ -51,24 +51,46 @@ impl Workbench {
         self.undo.note(what, vec![change]);
     }
 
-    /// Deletes an entry with its picture.
-    pub fn delete_entry(&mut self, name: &str) {
-        let folder = self.notebook_folder();
-        let files = folder.as_ref().ok().and_then(|it| disk::files(it, name));
-        let result = folder.and_then(|folder| disk::delete(&folder, name));
-        let all = &self.notebook.entries;
-        let Some(kept) = all.iter().find(|k| k.entry.name == name).cloned() else {
+    /// Takes note of an entry that was made.
+    pub(super) fn note_entry(&mut self, name: &str) {
+        let Some(entry) = self.present_entry(name) else {
             return;
         };
+        let change = Change {
+            target: Target::Entry(name.to_owned()),
+            before: None,
+            after: Some(Content::Entry(entry)),
+        };
+        self.undo.seal();
+        let what = say!("history.keep_entry", name = name);
+        self.undo.note(what, vec![change]);
+        self.undo.seal();
+    }
+
+    /// An entry as it is now, with the files that it has.
+    pub(in crate::ui::workbench) fn present_entry(&self, name: &str) -> Option<Deleted> {
+        let mut all = self.notebook.entries.iter();
+        let kept = all.find(|kept| kept.entry.name == name)?.clone();
+        let folder = self.notebook_folder().ok();
+        let files = folder.and_then(|folder| disk::files(&folder, name));
+        Some(Deleted(Arc::new(Gone { kept, files })))
+    }
+
+    /// Deletes an entry with its picture.
+    pub fn delete_entry(&mut self, name: &str) {
+        let Some(gone) = self.present_entry(name) else {
+            return;
+        };
+        let folder = self.notebook_folder();
+        let result = folder.and_then(|folder| disk::delete(&folder, name));
         match result {
-            Err(why) if kept.png.is_none() => {
+            Err(why) if gone.0.kept.png.is_none() => {
                 let text = say!("notebook.was_not_deleted", name = name, why = why);
                 self.notebook.said = Some(Err(text));
             }
             _ => {
                 self.notebook.entries.retain(|k| k.entry.name != name);
                 self.notebook.said = Some(Ok(say!("notebook.was_deleted", name = name)));
-                let gone = Deleted(Arc::new(Gone { kept, files }));
                 let change = Change {
                     target: Target::Entry(name.to_owned()),
                     before: Some(Content::Entry(gone)),

@@ -58,8 +58,8 @@ struct Coming {
 enum Done {
     /// The folder was read.
     Read(Vec<Kept>, Vec<String>),
-    /// An entry was made, and written or not.
-    Wrote(Box<Kept>),
+    /// An entry was made, and written or not; whether it is new.
+    Wrote(Box<Kept>, bool),
 }
 
 /// The notebook of the project.
@@ -214,7 +214,7 @@ impl Workbench {
                         self.notebook.add(kept);
                     }
                 }
-                Ok(Some(Done::Wrote(kept))) => self.wrote(*kept),
+                Ok(Some(Done::Wrote(kept, is_new))) => self.wrote(*kept, is_new),
                 Err(lost) => self.notebook.said = Some(Err(lost.to_string())),
             }
             self.notebook.tasks.remove(index);
@@ -258,11 +258,11 @@ impl Workbench {
                 .and(folder)
                 .and_then(|folder| disk::write(&folder, &kept.entry, kept.png()));
             kept.unsaved = written.err();
-            Done::Wrote(Box::new(kept))
+            Done::Wrote(Box::new(kept), true)
         });
     }
 
-    fn wrote(&mut self, mut kept: Kept) {
+    fn wrote(&mut self, mut kept: Kept, is_new: bool) {
         self.notebook.said = Some(match &kept.unsaved {
             None => {
                 kept.png = None;
@@ -274,7 +274,11 @@ impl Workbench {
             }
             Some(why) => Err(say!("notebook.the_entry_is_in_memory_alone", why = why)),
         });
+        let name = kept.entry.name.clone();
         self.notebook.add(kept);
+        if is_new {
+            self.note_entry(&name);
+        }
     }
 
     /// Tries again to write an entry that is in memory alone.
@@ -287,7 +291,7 @@ impl Workbench {
         self.in_background(move || {
             let written = folder.and_then(|folder| disk::write(&folder, &kept.entry, kept.png()));
             kept.unsaved = written.err();
-            Done::Wrote(Box::new(kept))
+            Done::Wrote(Box::new(kept), false)
         });
     }
 

@@ -86,9 +86,18 @@ impl Workbench {
                 self.set_note(name, note);
                 Ok(())
             }
-            (Target::Place(_) | Target::Dials(_) | Target::Moment(_) | Target::Note(_), _) => {
+            (Target::NumberKeys, Some(Content::NumberKeys(keys))) => {
+                self.undo.number_keys = Some(keys.clone());
                 Ok(())
             }
+            (
+                Target::Place(_)
+                | Target::Dials(_)
+                | Target::Moment(_)
+                | Target::Note(_)
+                | Target::NumberKeys,
+                _,
+            ) => Ok(()),
         };
         if let Err(error) = result {
             self.log.error(say!("undo.not_changed", error = error));

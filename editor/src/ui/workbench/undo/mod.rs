@@ -6,6 +6,7 @@
 
 mod apply;
 mod dials;
+mod keys;
 mod moments;
 mod places;
 mod travel;
@@ -15,6 +16,7 @@ use lightbench::script::overlays::Edit;
 use lightbench::world::{Entity, Value};
 
 pub use self::dials::Dials;
+pub use self::keys::NumberKeys;
 pub use self::moments::Moment;
 pub use self::places::{Chosen, Place};
 use super::notebook::Deleted;
@@ -62,6 +64,8 @@ pub enum Target {
     Entry(String),
     /// The note of an entry of the notebook.
     Note(String),
+    /// The number keys of pipelines.
+    NumberKeys,
 }
 
 impl Target {
@@ -89,8 +93,10 @@ pub enum Content {
     Dials(Dials),
     /// The scene as it stands.
     Moment(Moment),
-    /// A deleted entry of the notebook.
+    /// An entry of the notebook that is not there, or was not.
     Entry(Deleted),
+    /// Number keys of pipelines.
+    NumberKeys(NumberKeys),
     /// A text.
     Text(String),
 }
@@ -144,6 +150,8 @@ pub struct Undo {
     scene: Option<String>,
     /// The settings that are known.
     dials: Option<Dials>,
+    /// Number keys that pipelines are to have, until they have them.
+    number_keys: Option<NumberKeys>,
     /// Scenes that were kept as they stood.
     moments: moments::Moments,
     /// How often something was done, taken back or done again.

@@ -9,6 +9,7 @@ use lightbench::script::overlays::Overlays;
 use super::super::Workbench;
 use super::super::clock::Clock;
 use super::super::play::Before;
+use super::super::typed::Typed;
 use super::{Change, Content, Target};
 use crate::ui::messages::say;
 
@@ -24,6 +25,8 @@ pub(super) struct Stood {
     scene: SceneSnapshot,
     /// What lay on it then.
     overlays: Overlays,
+    /// Lines of the console that had changed it by then.
+    typed: Vec<Typed>,
     /// What Stop gave back then.
     before: Option<Arc<Before>>,
     /// Of which load it is.
@@ -71,6 +74,7 @@ impl Workbench {
             scene: scene.snapshot(),
             entities: scene.world.entities().count(),
             overlays: self.overlays_now().cloned().unwrap_or_default(),
+            typed: self.typed.clone(),
             before: self.before.clone(),
             load,
         };
@@ -131,6 +135,7 @@ impl Workbench {
             overlays.taken_back(scene, &stood.overlays);
         }
         self.before.clone_from(&stood.before);
+        self.typed.clone_from(&stood.typed);
         if std::mem::take(&mut self.ran_into_a_problem) {
             self.scenes.set_problems(None);
         }

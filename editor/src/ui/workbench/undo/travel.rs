@@ -132,6 +132,8 @@ impl Workbench {
                 let moves = before.seen.is_some();
                 Some(Content::Place(Box::new(self.place(moves))))
             }
+            // Of an entry that was kept, its files come back byte for byte.
+            (Target::Entry(name), None) => self.present_entry(name).map(Content::Entry),
             (Target::Moment(_), _) => self.keep_moment().map(Content::Moment),
             _ => None,
         }

@@ -64,17 +64,6 @@ impl Overlays {
     /// Changes that wait for a scene: [`Overlays::lay_on`] lays them on one.
     #[must_use]
     pub fn from_kept(kept: KeptOverlays) -> Self {
-        let waiting = |(entity, path, value): KeptField| {
-            let overlay = Overlay {
-                value,
-                script: None,
-                contested: false,
-                in_force: None,
-                entity: Entity::NONE,
-                aim: None,
-            };
-            ((entity, path), overlay)
-        };
         let edits = kept.edits.into_iter().zip(1..).map(|(kept, serial)| {
             let fields = kept.fields.into_iter().map(waiting).collect();
             Done::waiting(kept.edit, serial, fields, kept.greatest)
@@ -88,4 +77,17 @@ impl Overlays {
             assets_seen: 0,
         }
     }
+}
+
+/// A changed field that waits for its entity.
+pub(super) fn waiting((entity, path, value): KeptField) -> ((String, String), Overlay) {
+    let overlay = Overlay {
+        value,
+        script: None,
+        contested: false,
+        in_force: None,
+        entity: Entity::NONE,
+        aim: None,
+    };
+    ((entity, path), overlay)
 }

@@ -3,13 +3,42 @@
 use lightbench_world::ComponentKind;
 
 use super::super::lines::{degrees_of, spell_point};
-use super::{Edit, NewKind, Who};
-use crate::scene::tables;
+use super::{Done, Edit, NewKind, Overlays, Who};
+use crate::scene::{Scene, tables};
 use crate::spelling::{spell_number, spell_text};
+
+impl Overlays {
+    /// All changes of the structure, oldest first, each with the lines of a scene script that do the same,
+    /// or a sentence that says why scripts have no words for it, or what to write instead.
+    pub fn edit_lines<'a>(
+        &'a self,
+        scene: &'a Scene,
+    ) -> impl DoubleEndedIterator<Item = (&'a Edit, Result<String, String>)> {
+        let all = self.edits.iter();
+        all.map(|done| (&done.edit, done.lines(scene)))
+    }
+}
+
+impl Done {
+    fn lines(&self, scene: &Scene) -> Result<String, String> {
+        match &self.edit {
+            Edit::Assets(edit) => edit.lines(scene, self.inverse.as_ref()),
+            Edit::Copy { .. } => Err(
+                "scripts don't copy entities: write the lines that make them once more, with other names"
+                    .to_owned(),
+            ),
+            edit => edit.line().ok_or_else(|| {
+                "a script finds entities by a name of their own, and one of these has none: give it one in \
+                 the scene's script"
+                    .to_owned()
+            }),
+        }
+    }
+}
 
 impl Edit {
     /// The lines of a scene script that do the same. `None` where scripts have no words for it: copies,
-    /// and entities that can't be found by a name of their own.
+    /// changes of assets, which need the scene, and entities that can't be found by a name of their own.
     #[must_use]
     pub fn line(&self) -> Option<String> {
         let each = |of: &[Who], call: &dyn Fn(String) -> String| {
@@ -39,8 +68,7 @@ impl Edit {
                     turned.join(", ")
                 ))
             }
-            Self::Copy { .. } => None,
-            Self::Assets(edit) => edit.line(),
+            Self::Copy { .. } | Self::Assets(_) => None,
             Self::Delete { of } => each(of, &|entity| format!("{entity}.remove();")),
             Self::Rename { of } => {
                 let lines: Option<Vec<String>> = of
@@ -81,7 +109,8 @@ impl Edit {
     }
 }
 
-fn find(who: &Who) -> Option<String> {
+/// The call that finds an entity, where one does.
+pub(super) fn find(who: &Who) -> Option<String> {
     let can = who.nth == 0 && !who.name.is_empty();
     can.then(|| format!("entity({})", spell_text(&who.name)))
 }

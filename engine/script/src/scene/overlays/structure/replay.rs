@@ -2,8 +2,9 @@
 
 use lightbench_world::scene_file;
 
-use super::super::Overlays;
-use super::work;
+use super::super::kept::waiting;
+use super::super::{KeptEdit, Overlays};
+use super::{Done, work};
 use crate::scene::Scene;
 
 impl Overlays {
@@ -18,6 +19,20 @@ impl Overlays {
         for place in from..self.edits.len() {
             self.do_again(scene, place);
         }
+    }
+
+    /// Does changes that were kept, after all others. Those whose entities are not there wait.
+    pub fn lay_more(&mut self, scene: &mut Scene, edits: impl IntoIterator<Item = KeptEdit>) {
+        for kept in edits {
+            self.serial += 1;
+            let fields = kept.fields.into_iter().map(waiting).collect();
+            let done = Done::waiting(kept.edit, self.serial, fields, kept.greatest);
+            self.edits.push(done);
+            // As when it was done.
+            scene_file::number(&mut scene.world);
+            self.do_again(scene, self.edits.len() - 1);
+        }
+        self.settle(scene);
     }
 
     /// Does changes that waited, where their entities have come. Returns whether there were some.

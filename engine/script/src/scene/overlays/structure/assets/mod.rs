@@ -1,6 +1,9 @@
 //! Changes of a scene's materials, meshes and textures by hand, and of which of them entities have.
 
 mod inverse;
+mod lines;
+#[cfg(test)]
+mod lines_tests;
 mod listing;
 mod naming;
 mod painted;
@@ -18,7 +21,6 @@ use super::Who;
 use super::edit::{free_name, is_taken, spell};
 use crate::scene::Scene;
 use crate::scene::shelf::AssetId;
-use crate::spelling::spell_text;
 
 pub(super) use inverse::AssetInverse;
 pub(in crate::scene) use listing::LastListing;
@@ -135,22 +137,6 @@ impl AssetEdit {
             Self::NewTexture { recipe } => format!("Add texture {recipe}"),
             Self::DeleteTexture { of } => format!("Delete texture {}", of.words()),
             Self::AddModel { path, .. } => format!("Add {path}"),
-        }
-    }
-
-    /// The line of a scene script that does the same, where there is one.
-    pub(super) fn line(&self) -> Option<String> {
-        match self {
-            Self::AddModel {
-                path, name, place, ..
-            } => {
-                let at = super::super::lines::spell_point(place.translation);
-                let (path, name) = (spell_text(path), spell_text(name));
-                Some(format!(
-                    "{{ let it = load_model({path}); it.name = {name}; it.at({at}); }}"
-                ))
-            }
-            _ => None,
         }
     }
 
