@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::program::{MAGENTA, Program, alone, save_as, see, write_project};
+use super::program::{PATIENCE, Program, alone, give_up, save_as, see, write, write_project};
 use super::screen::{Key, Screen};
 
 /// How often the program is killed, in a usual run and in a long one.
@@ -22,14 +22,35 @@ const MOST: Duration = Duration::from_secs(10);
 const FIRST_MOMENT: Duration = Duration::from_secs(11);
 const LAST_MOMENT: Duration = Duration::from_secs(17);
 
-/// [`MAGENTA`] behind a question, where all is darker.
-const BEHIND: [u8; 3] = [155, 0, 155];
-
 /// Of the changes each of this number is a drag of the handles to the right; the others are copies.
 const DRAGGED: usize = 4;
 
-/// How far each drag goes, pixels. Copies that lie over each other have one pair of handles.
-const STEP: f32 = 9.0;
+/// How far each drag goes, pixels: less than a ball is wide, and further than its handles reach.
+const STEP: f32 = 30.0;
+
+/// A pipeline that adds up the balls that lie over each other, so that each copy is seen.
+const ADDING: &str = r#"// Counts the layers of things.
+let p = pipeline("Adding");
+p.target("output", "rgba8unorm");
+p.geometry("draw").shader("shaders/adding.wgsl")
+    .writes("output").clear(0, 0, 0, 1).blend("add");
+p.show("output");
+p
+"#;
+
+const SHADER: &str = "@fragment
+fn fragment_main() -> @location(0) vec4f {
+    return vec4f(1.0, 0.0, 10.0 / 255.0, 1.0);
+}
+";
+
+/// The colour of so many balls over each other.
+fn layers(count: usize) -> [u8; 3] {
+    [255, 0, u8::try_from(10 * count).unwrap()]
+}
+
+/// One ball behind a question, where all is darker.
+const BEHIND: [u8; 3] = [155, 0, 6];
 
 fn seed() -> u64 {
     let seed = match std::env::var("LIGHTBENCH_SEED") {
@@ -71,25 +92,67 @@ fn changes(text: &str) -> usize {
     changes
 }
 
+/// Waits until a colour is seen, beyond so many pixels from the left. Says whether it came before the
+/// program was killed.
+fn comes(screen: &Screen, is_killed: &AtomicBool, color: [u8; 3], left: f32) -> bool {
+    let began = Instant::now();
+    while !is_killed.load(Ordering::Acquire) {
+        let blot = screen.blot_beyond(left.round() as usize, color);
+        if blot.is_some_and(|blot| blot.count > 500) {
+            return true;
+        }
+        if began.elapsed() > PATIENCE {
+            give_up(screen, &format!("{color:?} beyond {left}, {blot:?}"));
+        }
+        thread::sleep(Duration::from_millis(30));
+    }
+    false
+}
+
+/// Copies the ball at `x` and drags the copy, again and again. Each change waits for the one before, as a
+/// person does who looks at the screen. Gives when each was asked for: it was made no earlier.
+fn work(screen: &Screen, is_killed: &AtomicBool, (mut x, y): (f32, f32)) -> Vec<Instant> {
+    let mut asked = Vec::new();
+    // How many balls lie where the last one is. Right of their middle a part of them is beside all others.
+    let mut here = 1;
+    let mut goes_on = true;
+    while goes_on {
+        asked.push(Instant::now());
+        if asked.len().is_multiple_of(DRAGGED) {
+            screen.drag((x, y), (x + STEP, y));
+            // While a handle is held, keys are for its amount.
+            thread::sleep(Duration::from_millis(300));
+            x += STEP;
+            here = 1;
+        } else {
+            screen.key(Key::Letter('d'), &[Key::Control]);
+            here += 1;
+        }
+        goes_on = comes(screen, is_killed, layers(here), x);
+    }
+    asked
+}
+
 /// Kills the program while somebody works, and gives the age of the oldest change that is missing then.
 fn work_until_killed(wait: Duration) -> Duration {
     let screen = Screen::open(1440, 900);
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();
     write_project(root);
+    let project = root.join("project");
+    write(&project, "shaders/adding.wgsl", SHADER);
+    write(&project, "scripts/pipelines/a_first.rhai", ADDING);
     let mut program = Program::start(&screen, root, "ball");
-    let first = see(&screen, "the ball", MAGENTA, |_| true);
+    let first = see(&screen, "the ball", layers(1), |_| true);
     screen.focus("Lightbench");
     screen.key(Key::Letter('m'), &[]);
     screen.click(first.x, first.y);
-    see(&screen, "handles over the ball", MAGENTA, |blot| {
+    see(&screen, "handles over the ball", layers(1), |blot| {
         blot.count + 20 < first.count
     });
 
-    // When each change was asked for: it was made no earlier.
-    let mut asked = Vec::new();
     let is_killed = AtomicBool::new(false);
-    let killed = thread::scope(|scope| {
+    let (mut asked, killed) = thread::scope(|scope| {
         let killer = scope.spawn(|| {
             thread::sleep(wait);
             program.kill();
@@ -97,18 +160,8 @@ fn work_until_killed(wait: Duration) -> Duration {
             is_killed.store(true, Ordering::Release);
             now
         });
-        let mut x = first.x;
-        while !is_killed.load(Ordering::Acquire) {
-            asked.push(Instant::now());
-            if asked.len().is_multiple_of(DRAGGED) {
-                screen.drag((x, first.y), (x + STEP, first.y));
-                x += STEP;
-            } else {
-                screen.key(Key::Letter('d'), &[Key::Control]);
-                thread::sleep(Duration::from_millis(150));
-            }
-        }
-        killer.join().unwrap()
+        let asked = work(&screen, &is_killed, (first.x, first.y));
+        (asked, killer.join().unwrap())
     });
     asked.retain(|asked| *asked < killed);
 
@@ -118,8 +171,14 @@ fn work_until_killed(wait: Duration) -> Duration {
     // The first answer is to restore.
     screen.key(Key::Tab, &[]);
     screen.key(Key::Return, &[]);
-    see(&screen, "the balls", MAGENTA, |_| true);
-    // The picture may still be that of the ball alone.
+    let began = Instant::now();
+    while screen.blot(BEHIND).is_some() {
+        if began.elapsed() > PATIENCE {
+            give_up(&screen, "the answer");
+        }
+        thread::sleep(Duration::from_millis(30));
+    }
+    // What is on its way comes before keys do.
     thread::sleep(Duration::from_secs(1));
     let made = changes(&save_as(&screen, root, "restored"));
     screen.key(Key::Letter('q'), &[Key::Control]);

@@ -157,7 +157,8 @@ pub fn save_as(screen: &Screen, root: &Path, name: &str) -> String {
     fs::read_to_string(&saved).unwrap()
 }
 
-fn give_up(screen: &Screen, what: &str) -> ! {
+/// Fails, and keeps what is on the screen.
+pub fn give_up(screen: &Screen, what: &str) -> ! {
     let file = std::env::temp_dir().join("lightbench_real_window.png");
     screen.save(&file);
     let file = file.display();

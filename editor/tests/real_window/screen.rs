@@ -221,10 +221,15 @@ impl Screen {
 
     /// Where a colour is, if it is anywhere.
     pub fn blot(&self, color: [u8; 3]) -> Option<Blot> {
+        self.blot_beyond(0, color)
+    }
+
+    /// The same where so many pixels at the left do not count.
+    pub fn blot_beyond(&self, left: usize, color: [u8; 3]) -> Option<Blot> {
         let width = usize::from(self.size.0);
         let (mut x, mut y, mut count) = (0_u64, 0_u64, 0_usize);
         for (at, pixel) in self.pixels().chunks_exact(4).enumerate() {
-            if [pixel[2], pixel[1], pixel[0]] == color {
+            if at % width >= left && [pixel[2], pixel[1], pixel[0]] == color {
                 x += (at % width) as u64;
                 y += (at / width) as u64;
                 count += 1;
