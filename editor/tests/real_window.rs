@@ -15,7 +15,9 @@ mod screen;
 
 use std::time::{Duration, Instant};
 
-use program::{BLUE, GREEN, MAGENTA, Program, alone, save_as, see, shader, write, write_project};
+use program::{
+    BLUE, GREEN, MAGENTA, Program, alone, choose, save_as, see, shader, write, write_project,
+};
 use screen::{Blot, Key, Screen};
 
 /// Handles lie over the ball, and the pointer over them changes their colours.
@@ -44,10 +46,7 @@ fn a_person_can_work_in_the_window() {
 
     // Choose it, and drag the middle of its handles to the right.
     screen.key(Key::Letter('m'), &[]);
-    screen.click(first.x, first.y);
-    see(&screen, "handles over the ball", MAGENTA, |blot| {
-        blot.count + 20 < first.count
-    });
+    choose(&screen, &first, MAGENTA);
     screen.drag((first.x, first.y), (first.x + 100.0, first.y));
     let moved = see(&screen, "the ball at its right", MAGENTA, |blot| {
         // As far as the pointer.

@@ -8,7 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::program::{PATIENCE, Program, alone, give_up, save_as, see, write, write_project};
+use super::program::{
+    PATIENCE, Program, alone, choose, give_up, save_as, see, write, write_project,
+};
 use super::screen::{Key, Screen};
 
 /// How often the program is killed, in a usual run and in a long one.
@@ -146,10 +148,7 @@ fn work_until_killed(wait: Duration) -> Duration {
     let first = see(&screen, "the ball", layers(1), |_| true);
     screen.focus("Lightbench");
     screen.key(Key::Letter('m'), &[]);
-    screen.click(first.x, first.y);
-    see(&screen, "handles over the ball", layers(1), |blot| {
-        blot.count + 20 < first.count
-    });
+    choose(&screen, &first, layers(1));
 
     let is_killed = AtomicBool::new(false);
     let (mut asked, killed) = thread::scope(|scope| {

@@ -138,6 +138,26 @@ pub fn see(screen: &Screen, what: &str, color: [u8; 3], fits: impl Fn(&Blot) -> 
     }
 }
 
+/// Clicks on a ball of that colour until handles lie over it. A click that a slow frame tears apart is held
+/// for a long press, so that a person would click again.
+pub fn choose(screen: &Screen, ball: &Blot, color: [u8; 3]) {
+    let began = Instant::now();
+    while began.elapsed() < PATIENCE {
+        screen.click(ball.x, ball.y);
+        let clicked = Instant::now();
+        while clicked.elapsed() < Duration::from_secs(3) {
+            std::thread::sleep(Duration::from_millis(50));
+            if screen
+                .blot(color)
+                .is_some_and(|it| it.count + 20 < ball.count)
+            {
+                return;
+            }
+        }
+    }
+    give_up(screen, "handles over the ball");
+}
+
 /// Saves the scene under another name, and gives the text of the file.
 pub fn save_as(screen: &Screen, root: &Path, name: &str) -> String {
     screen.key(Key::Letter('s'), &[Key::Control, Key::Shift]);
