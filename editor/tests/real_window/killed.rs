@@ -30,6 +30,9 @@ const DRAGGED: usize = 4;
 /// How far each drag goes, pixels: less than a ball is wide, and further than its handles reach.
 const STEP: f32 = 30.0;
 
+/// After how long a person who sees nothing happen tries again.
+const AGAIN: Duration = Duration::from_secs(4);
+
 /// A pipeline that adds up the balls that lie over each other, so that each copy is seen.
 const ADDING: &str = r#"// Counts the layers of things.
 let p = pipeline("Adding");
@@ -94,45 +97,60 @@ fn changes(text: &str) -> usize {
     changes
 }
 
-/// Waits until a colour is seen, beyond so many pixels from the left. Says whether it came before the
-/// program was killed.
-fn comes(screen: &Screen, is_killed: &AtomicBool, color: [u8; 3], left: f32) -> bool {
+/// What came of a change that was asked for.
+enum Fate {
+    Seen,
+    /// It is not there after a while. Where a frame takes longer than a drag does, that is none.
+    Missed,
+    Killed,
+}
+
+/// Waits until a colour is seen, beyond so many pixels from the left.
+fn look_for(screen: &Screen, is_killed: &AtomicBool, color: [u8; 3], left: f32) -> Fate {
     let began = Instant::now();
-    while !is_killed.load(Ordering::Acquire) {
+    while began.elapsed() < AGAIN {
+        if is_killed.load(Ordering::Acquire) {
+            return Fate::Killed;
+        }
         let blot = screen.blot_beyond(left.round() as usize, color);
         if blot.is_some_and(|blot| blot.count > 500) {
-            return true;
-        }
-        if began.elapsed() > PATIENCE {
-            give_up(screen, &format!("{color:?} beyond {left}, {blot:?}"));
+            return Fate::Seen;
         }
         thread::sleep(Duration::from_millis(30));
     }
-    false
+    Fate::Missed
 }
 
-/// Copies the ball at `x` and drags the copy, again and again. Each change waits for the one before, as a
-/// person does who looks at the screen. Gives when each was asked for: it was made no earlier.
+/// Copies the ball at `x` and drags the copy, again and again, until the program is killed. Each change
+/// waits for the one before, as a person does who looks at the screen. Gives when each was asked for: it was
+/// made no earlier.
 fn work(screen: &Screen, is_killed: &AtomicBool, (mut x, y): (f32, f32)) -> Vec<Instant> {
     let mut asked = Vec::new();
     // How many balls lie where the last one is. Right of their middle a part of them is beside all others.
     let mut here = 1;
-    let mut goes_on = true;
-    while goes_on {
-        asked.push(Instant::now());
-        if asked.len().is_multiple_of(DRAGGED) {
-            screen.drag((x, y), (x + STEP, y));
+    loop {
+        let drags = (asked.len() + 1).is_multiple_of(DRAGGED);
+        let (to, there) = if drags { (x + STEP, 1) } else { (x, here + 1) };
+        let began = Instant::now();
+        if drags {
+            screen.drag((x, y), (to, y));
             // While a handle is held, keys are for its amount.
             thread::sleep(Duration::from_millis(300));
-            x += STEP;
-            here = 1;
         } else {
             screen.key(Key::Letter('d'), &[Key::Control]);
-            here += 1;
         }
-        goes_on = comes(screen, is_killed, layers(here), x);
+        match look_for(screen, is_killed, layers(there), to) {
+            Fate::Seen => {
+                asked.push(began);
+                (x, here) = (to, there);
+            }
+            Fate::Missed => {}
+            Fate::Killed => {
+                asked.push(began);
+                return asked;
+            }
+        }
     }
-    asked
 }
 
 /// Kills the program while somebody works, and gives the age of the oldest change that is missing then.
