@@ -223,7 +223,7 @@ fn a_project_of_a_lesson_opens_it_and_keeps_what_was_found() {
     assert!(larger(&bench));
     bench.press("Close");
     assert!(!larger(&bench));
-    click(&mut bench, Role::Link, "Read #lambert");
+    click(&mut bench, Role::Link, "Read: A matt surface");
     assert_eq!(bench.harness.state().lessons.page, Page::Text);
     // The text glides there.
     bench.harness.run_steps(8);

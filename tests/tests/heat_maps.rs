@@ -86,8 +86,13 @@ fn all_pixels_of_a_tile_evaluate_its_list() {
     let mut studio = Studio::new("many_lights", &settings(&["lights=200"]));
     let (pipeline, _) = studio.draw_whole("deferred_shading", &Settings::new(), SIZE);
     let depth = studio.renderer.read_target(&pipeline, "depth").unwrap();
-    for name in ["tiled_forward", "tiled_deferred"] {
-        let image = counts(&mut studio, name, "lights_evaluated", &["tile_size=16"]);
+    for (name, more) in [
+        ("tiled_forward", "capacity=256"),
+        ("tiled_deferred", "shading=workgroups"),
+        ("tiled_deferred", "shading=fragments"),
+    ] {
+        let texts = ["tile_size=16", more];
+        let image = counts(&mut studio, name, "lights_evaluated", &texts);
         let mut lists = std::collections::BTreeMap::new();
         for (index, texel) in image.texels.iter().enumerate() {
             if depth.texels[index][0] == 0.0 {

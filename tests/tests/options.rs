@@ -70,11 +70,10 @@ fn options_that_only_change_the_cost_change_no_pixel() {
         let text = format!("{texts:?}");
         let tiled = hdr("tiled_forward", &[&texts[..], &["capacity=1024"]].concat());
         close(&forward, &tiled, &text);
-        close(
-            &hdr("tiled_deferred", &[full]),
-            &hdr("tiled_deferred", &texts),
-            &text,
-        );
+        let deferred = hdr("tiled_deferred", &[full]);
+        close(&deferred, &hdr("tiled_deferred", &texts), &text);
+        let listed = [&texts[..], &["shading=fragments", "capacity=64"]].concat();
+        close(&deferred, &hdr("tiled_deferred", &listed), &text);
     }
     for texts in [
         [full, "tile_size=32", "slices=64"],

@@ -26,7 +26,8 @@ const TEXTURES: [&str; 4] = [
 impl Desk {
     fn listed(&mut self, fits: impl Fn(&Listed) -> bool) -> Option<Who> {
         let scene = self.workbench.scenes.scene().unwrap();
-        let all: Vec<Listed> = scene.listed().into_iter().filter(fits).collect();
+        let listing = scene.listed();
+        let all: Vec<&Listed> = listing.all().iter().filter(|one| fits(one)).collect();
         let place = self.random.below(all.len());
         all.get(place).map(|one| one.who.clone())
     }

@@ -144,6 +144,8 @@ pub struct Assets {
     materials: Table<Material>,
     textures: Table<Arc<Texture>>,
     revision: u64,
+    /// The revision of the last change but for new values of materials.
+    roster: u64,
 }
 
 /// One sequence for the whole program: two scenes never give the same revision
@@ -176,6 +178,7 @@ impl Assets {
             materials: Table::new("material"),
             textures: Table::new("texture"),
             revision: 0,
+            roster: 0,
         };
         assets.add_material(Material::default());
         assets.add_shared_texture(placeholder());
@@ -189,6 +192,19 @@ impl Assets {
         self.revision
     }
 
+    /// Like [`Assets::revision`], but the same where materials only took other values: what there is,
+    /// and what it is called, has not changed then.
+    #[must_use]
+    pub fn roster_revision(&self) -> u64 {
+        self.roster
+    }
+
+    /// There is something new, or under a new name.
+    fn enlist(&mut self, revision: u64) {
+        self.revision = revision;
+        self.roster = revision;
+    }
+
     /// Adds a mesh.
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
         self.add_shared_mesh(Shared::shared(mesh))
@@ -196,7 +212,7 @@ impl Assets {
 
     /// Adds a mesh that others hold too.
     pub fn add_shared_mesh(&mut self, mesh: Shared<Mesh>) -> MeshId {
-        self.revision = next_revision();
+        self.enlist(next_revision());
         self.bounds.push(mesh.bounds());
         let name = mesh.name.clone();
         MeshId(self.meshes.add(&name, mesh))
@@ -204,7 +220,7 @@ impl Assets {
 
     /// Adds a material.
     pub fn add_material(&mut self, material: Material) -> MaterialId {
-        self.revision = next_revision();
+        self.enlist(next_revision());
         let name = material.name.clone();
         let entry = Entry {
             value: material,
@@ -220,7 +236,7 @@ impl Assets {
 
     /// Adds a texture that others hold too.
     pub fn add_shared_texture(&mut self, texture: Shared<Texture>) -> TextureId {
-        self.revision = next_revision();
+        self.enlist(next_revision());
         let name = texture.name.clone();
         TextureId(self.textures.add(&name, texture))
     }
@@ -232,7 +248,8 @@ impl Assets {
     pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Result<(), UnknownAsset> {
         let bounds = mesh.bounds();
         let name = mesh.name.clone();
-        self.revision = self.meshes.replace(id.0, &name, Arc::new(mesh))?;
+        let revision = self.meshes.replace(id.0, &name, Arc::new(mesh))?;
+        self.enlist(revision);
         self.bounds[id.0 as usize] = bounds;
         Ok(())
     }
@@ -247,7 +264,11 @@ impl Assets {
         material: Material,
     ) -> Result<(), UnknownAsset> {
         let name = material.name.clone();
+        let before = self.material(id).map(|before| before.name == name);
         self.revision = self.materials.replace(id.0, &name, material)?;
+        if before == Some(false) {
+            self.roster = self.revision;
+        }
         Ok(())
     }
 
@@ -257,7 +278,8 @@ impl Assets {
     /// An id that belongs to no texture.
     pub fn replace_texture(&mut self, id: TextureId, texture: Texture) -> Result<(), UnknownAsset> {
         let name = texture.name.clone();
-        self.revision = self.textures.replace(id.0, &name, Arc::new(texture))?;
+        let revision = self.textures.replace(id.0, &name, Arc::new(texture))?;
+        self.enlist(revision);
         Ok(())
     }
 
@@ -278,7 +300,7 @@ impl Assets {
         if self.counts() == counts {
             return;
         }
-        self.revision = next_revision();
+        self.enlist(next_revision());
         self.meshes.truncate(counts.meshes);
         self.bounds.truncate(counts.meshes);
         self.materials.truncate(counts.materials.max(1));
@@ -376,6 +398,27 @@ mod tests {
             texture.pixel(0, 8, 0).unwrap().to_array(),
             [0.0, 0.0, 0.0, 1.0]
         );
+    }
+
+    #[test]
+    fn other_values_of_a_material_leave_the_roster_and_another_name_does_not() {
+        let mut assets = Assets::new();
+        let id = assets.add_material(Material {
+            name: "clay".to_owned(),
+            ..Material::default()
+        });
+        let (all, roster) = (assets.revision(), assets.roster_revision());
+        let mut material = assets.material(id).unwrap().clone();
+        material.opacity = 0.5;
+        assets.replace_material(id, material.clone()).unwrap();
+        assert_ne!(assets.revision(), all);
+        assert_eq!(assets.roster_revision(), roster);
+        material.name = "brick".to_owned();
+        assets.replace_material(id, material).unwrap();
+        assert_ne!(assets.roster_revision(), roster);
+        let roster = assets.roster_revision();
+        assets.add_mesh(mesh("a"));
+        assert_ne!(assets.roster_revision(), roster);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod conversion;
 mod declarations;
+mod depth;
 mod explain;
 mod imports;
 mod listing;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use lightbench::assets::Progress;
-use lightbench::lab::lesson::{CheckOptions, Lesson, RefusalKind, begin, check, pack};
+use lightbench::lab::lesson::{CheckOptions, Lesson, Outcome, RefusalKind, begin, check, pack};
 use serde::Deserialize;
 
 use super::{all, checked, copy, solved, told};
@@ -61,6 +61,16 @@ fn task_ids(lesson: &Lesson) -> Vec<&str> {
         .iter()
         .map(|task| task.id.as_str())
         .collect()
+}
+
+/// Checks all tasks as a grader does: with the hidden checks too.
+fn with_hidden(folder: &Path, lesson: &Lesson, work: &Path) -> Outcome {
+    let options = CheckOptions {
+        hidden: Some(folder.join("hidden")),
+        only: task_ids(lesson).into_iter().map(str::to_owned).collect(),
+        ..CheckOptions::default()
+    };
+    check(lesson, work, &options, &Progress::new(), |_| {}).unwrap()
 }
 
 #[test]
@@ -145,6 +155,7 @@ fn mistakes_lose_points_and_are_named() {
     }
 }
 
+/// From the checks that a student has, and from the hidden ones.
 #[test]
 fn other_right_ways_get_all_points() {
     for (folder, lesson) in all() {
@@ -155,7 +166,7 @@ fn other_right_ways_get_all_points() {
                 edit(work.path(), &one.file, &one.from, &one.to);
                 changed.push(one.to.as_str());
             }
-            let outcome = checked(&lesson, work.path(), &task_ids(&lesson));
+            let outcome = with_hidden(&folder, &lesson, work.path());
             assert_eq!(
                 outcome.points,
                 outcome.of,
@@ -280,19 +291,9 @@ fn broken_and_missing_files_are_told_with_their_places() {
 #[test]
 fn hidden_checks_find_what_was_made_for_the_others() {
     for (folder, lesson) in all() {
-        let hidden = folder.join("hidden");
-        if !hidden.join("checks.rhai").is_file() {
-            continue;
-        }
+        assert!(folder.join("hidden/checks.rhai").is_file());
         let work = solved(&folder);
-        let options = CheckOptions {
-            hidden: Some(hidden),
-            only: task_ids(&lesson).into_iter().map(str::to_owned).collect(),
-            ..CheckOptions::default()
-        };
-        let checked =
-            |work: &Path| check(&lesson, work, &options, &Progress::new(), |_| {}).unwrap();
-        let outcome = checked(work.path());
+        let outcome = with_hidden(&folder, &lesson, work.path());
         assert_eq!(outcome.points, outcome.of, "{}", told(&outcome));
         if lesson.name == "01-first-light" {
             // The normal of the student's checks in place of the one that is given.
@@ -304,7 +305,8 @@ fn hidden_checks_find_what_was_made_for_the_others() {
             );
             let of_student = super::checked(&lesson, work.path(), &["irradiance"]);
             assert_eq!(of_student.points, of_student.of, "{}", told(&of_student));
-            assert_eq!(checked(work.path()).task("irradiance").unwrap().points, 0);
+            let outcome = with_hidden(&folder, &lesson, work.path());
+            assert_eq!(outcome.task("irradiance").unwrap().points, 0);
         }
     }
 }

@@ -8,7 +8,7 @@ use lightbench::assets::Progress;
 use lightbench::assets::files::{Files, write_atomic};
 use lightbench::lab::experiment::Remark;
 use lightbench::lab::lesson::{
-    self, CheckError, CheckEvent, CheckOptions, Lesson, Outcome, check, lesson_of,
+    self, CheckError, CheckEvent, CheckOptions, LESSON_PAGE, Lesson, Outcome, check, lesson_of,
 };
 
 use super::printed::Printed;
@@ -151,6 +151,7 @@ impl Checking {
             lesson: &lesson,
             language,
             pictures: &pictures,
+            page: Some(work.join(LESSON_PAGE)).filter(|page| page.is_file()),
         };
         say(printed.to_string().trim_end())?;
         Ok(Checked {

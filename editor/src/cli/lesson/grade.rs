@@ -432,11 +432,10 @@ impl Book<'_> {
             .records
             .iter()
             .filter(|record| record.needs_a_person() || self.reasons.contains_key(&record.student));
-        note(format!(
-            "{} hand-ins; a person should look at {}.",
-            self.records.len(),
-            look.count()
-        ));
+        let count = self.records.len();
+        let noun = if count == 1 { "hand-in" } else { "hand-ins" };
+        let look = look.count();
+        note(format!("{count} {noun}; a person should look at {look}."));
         say(index_path.display().to_string())
     }
 }

@@ -1,7 +1,7 @@
 //! The outcome of a check as a person reads it in a terminal.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use lightbench::lab::lesson::{
     CriterionOutcome, Finding, Language, Lesson, Outcome, State, TaskOutcome, Words, text_file,
@@ -17,6 +17,8 @@ pub struct Printed<'a> {
     pub language: Language,
     /// Where the pictures lie.
     pub pictures: &'a Path,
+    /// The page with the lesson's text, where the work has one.
+    pub page: Option<PathBuf>,
 }
 
 impl fmt::Display for Printed<'_> {
@@ -137,8 +139,13 @@ impl Printed<'_> {
         let Some(place) = place else {
             return Ok(());
         };
-        let file = self.lesson.source.shown(&text_file(self.language));
-        self.line(f, self.say("read", "relee"), &format!("{file}#{place}"))
+        let file = match &self.page {
+            Some(page) => page.display().to_string(),
+            None => self.lesson.source.shown(&text_file(self.language)),
+        };
+        let title = self.outcome.title_of(place, self.language);
+        let text = format!("“{title}”, {file}#{place}");
+        self.line(f, self.say("read", "relee"), &text)
     }
 
     /// A name and a text, whose later lines stand below its first one.

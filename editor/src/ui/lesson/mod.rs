@@ -8,6 +8,7 @@ pub mod places;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::SystemTime;
 
 use lightbench::assets::files::{Files, write_atomic};
@@ -80,6 +81,8 @@ pub struct Open {
     pub begun: Option<LessonOf>,
     /// The text.
     pub text: Vec<Block>,
+    /// The titles of its places.
+    pub titles: Arc<BTreeMap<String, String>>,
     /// Why there is no text.
     pub no_text: Option<String>,
     /// What the last check found, and when.
@@ -152,6 +155,7 @@ impl Lessons {
         self.beginning.why_not = None;
         let mut open = Open {
             text: Vec::new(),
+            titles: Arc::default(),
             no_text: None,
             outcome: None,
             typed: BTreeMap::new(),
@@ -250,6 +254,9 @@ impl Open {
         match self.lesson.text(language) {
             Ok(text) => {
                 self.text = read_document(&text.markdown);
+                let title =
+                    |place: &str| Some((place.to_owned(), text.title_of(place)?.to_owned()));
+                self.titles = Arc::new(text.places().into_iter().filter_map(title).collect());
                 self.no_text = None;
             }
             Err(error) => {

@@ -125,9 +125,7 @@ impl Workbench {
         let Some(scene) = self.scenes.scene_mut() else {
             return Err(say!("hand.no_scene_is_loaded").to_owned());
         };
-        let found = scene.world.find(entity);
-        let found = found.ok_or_else(|| say!("hand.nothing_is_called_now", entity = entity))?;
-        overlays.set(scene, found, path, value.clone())?;
+        overlays.lay_again(scene, entity, path, value.clone())?;
         self.note_field(entity, path, value, say!("hand.changed_by_hand"));
         self.canvas.invalidate();
         Ok(())

@@ -1,6 +1,6 @@
 //! Results for Gradescope.
 
-use lightbench_lab::lesson::{CriterionOutcome, Language, TaskOutcome};
+use lightbench_lab::lesson::{CriterionOutcome, Language, Outcome, TaskOutcome};
 use serde_json::{Value, json};
 
 use super::{explained, refused};
@@ -22,14 +22,14 @@ pub fn gradescope(record: &Record, language: Language) -> Option<Value> {
         let tests: Vec<Value> = outcome
             .tasks
             .iter()
-            .flat_map(|task| of_task(task, language))
+            .flat_map(|task| of_task(outcome, task, language))
             .collect();
         result["tests"] = tests.into();
     }
     Some(result)
 }
 
-fn of_task(task: &TaskOutcome, language: Language) -> Vec<Value> {
+fn of_task(outcome: &Outcome, task: &TaskOutcome, language: Language) -> Vec<Value> {
     let title = task.title.in_language(language);
     let test = |name: String, score: u32, of: u32, output: String| {
         json!({
@@ -50,7 +50,7 @@ fn of_task(task: &TaskOutcome, language: Language) -> Vec<Value> {
             true => title.to_owned(),
             false => format!("{title}: {says}"),
         };
-        let output = explained(criterion, language).join("\n");
+        let output = explained(outcome, criterion, language).join("\n");
         test(name, criterion.points, criterion.of, output)
     };
     task.criteria.iter().map(criterion).collect()

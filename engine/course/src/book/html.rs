@@ -8,7 +8,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use lightbench_lab::lesson::{CriterionOutcome, Finding, Language, Outcome, State, TaskOutcome};
 
-use super::{escaped, refused};
+use super::{escaped, refused, text_of_hidden};
 use crate::grading::Record;
 
 const CSS: &str = include_str!("page.css");
@@ -99,10 +99,11 @@ impl Page<'_> {
     }
 
     fn outcome(&self, outcome: &Outcome) -> String {
-        outcome.tasks.iter().map(|task| self.task(task)).collect()
+        let tasks = outcome.tasks.iter();
+        tasks.map(|task| self.task(outcome, task)).collect()
     }
 
-    fn task(&self, task: &TaskOutcome) -> String {
+    fn task(&self, outcome: &Outcome, task: &TaskOutcome) -> String {
         let title = escaped(task.title.in_language(self.language));
         let of = self.say("of", "de");
         let mut text = format!("<h2>{title} — {} {of} {}</h2>\n", task.points, task.of);
@@ -111,32 +112,41 @@ impl Page<'_> {
         }
         let criteria = task.criteria.iter();
         text += &criteria
-            .map(|criterion| self.criterion(criterion))
+            .map(|criterion| self.criterion(outcome, task, criterion))
             .collect::<String>();
         text
     }
 
-    fn criterion(&self, criterion: &CriterionOutcome) -> String {
+    fn criterion(
+        &self,
+        outcome: &Outcome,
+        task: &TaskOutcome,
+        criterion: &CriterionOutcome,
+    ) -> String {
         let (class, word) = match criterion.state {
             State::Passed => ("passed", self.say("holds", "se cumple")),
             State::Failed => ("failed", self.say("does not hold", "no se cumple")),
             State::NotReached => ("", self.say("not judged", "sin evaluar")),
         };
+        // A question is its own criterion, and its text stands above.
+        let says = match criterion.says == task.title {
+            true => String::new(),
+            false => format!("{} · ", escaped(criterion.says.in_language(self.language))),
+        };
         let mut text = format!(
-            "<div class=\"criterion {class}\"><span class=\"state\">{word}</span> · {} · {} {} {}\n",
-            escaped(criterion.says.in_language(self.language)),
+            "<div class=\"criterion {class}\"><span class=\"state\">{word}</span> · {says}{} {} {}\n",
             criterion.points,
             self.say("of", "de"),
             criterion.of
         );
         let findings = criterion.findings.iter().filter(|finding| !finding.holds);
         text += &findings
-            .map(|finding| self.finding(finding))
+            .map(|finding| self.finding(outcome, finding))
             .collect::<String>();
         text + "</div>\n"
     }
 
-    fn finding(&self, finding: &Finding) -> String {
+    fn finding(&self, outcome: &Outcome, finding: &Finding) -> String {
         let words =
             |words: &lightbench_lab::lesson::Words| escaped(words.in_language(self.language));
         let mut text = format!(
@@ -149,13 +159,17 @@ impl Page<'_> {
         if let Some(place) = &finding.place {
             let _ = write!(text, "<br>{}: {}", self.say("Where", "Dónde"), words(place));
         }
+        if finding.hidden {
+            let _ = write!(text, "<br><em>({})</em>", text_of_hidden(self.language));
+        }
         text += "</p>\n";
         if let Some(cause) = &finding.cause {
             let _ = writeln!(text, "<p><strong>{}</strong></p>", words(cause));
         }
         if let Some(read) = &finding.read {
             let word = self.say("Read again", "Vuelve a leer");
-            let _ = writeln!(text, "<p>{word}: <em>{}</em></p>", escaped(read));
+            let title = escaped(outcome.title_of(read, self.language));
+            let _ = writeln!(text, "<p>{word}: <em>{title}</em></p>");
         }
         for (file, caption) in &finding.pictures {
             text += &self.picture(file, &words(caption));
@@ -205,6 +219,9 @@ mod tests {
             "<h2>A curve — 4 of 8</h2>",
             "Expected: 0.5 &lt; x<br>Found: &quot;0.25&quot;<br>Where: pixel 3, 4",
             "<strong>gamma &amp; twice</strong>",
+            "Read again: <em>Gamma, twice</em>",
+            "found by a check that only whoever grades has",
+            "<h2>How many? — 2 of 2</h2>",
             "src=\"data:image/png;base64,cG5n\"",
         ] {
             assert!(text.contains(part), "{part}: {text}");

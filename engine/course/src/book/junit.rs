@@ -1,6 +1,6 @@
 //! Results for tools that read those of tests.
 
-use lightbench_lab::lesson::{CriterionOutcome, Language, State, TaskOutcome};
+use lightbench_lab::lesson::{CriterionOutcome, Language, Outcome, State, TaskOutcome};
 
 use super::{escaped, explained, refused};
 use crate::grading::{Ending, Record};
@@ -27,7 +27,9 @@ fn suite(record: &Record, language: Language) -> String {
     let cases: Vec<Case> = match &record.ending {
         Ending::Checked(outcome) => {
             let tasks = outcome.tasks.iter();
-            tasks.flat_map(|task| of_task(task, language)).collect()
+            tasks
+                .flat_map(|task| of_task(outcome, task, language))
+                .collect()
         }
         ending => {
             let kind = match ending {
@@ -76,7 +78,7 @@ fn suite(record: &Record, language: Language) -> String {
     text + "  </testsuite>\n"
 }
 
-fn of_task(task: &TaskOutcome, language: Language) -> Vec<Case> {
+fn of_task(outcome: &Outcome, task: &TaskOutcome, language: Language) -> Vec<Case> {
     let case = |name: String, inside| Case {
         task: task.id.clone(),
         name,
@@ -86,7 +88,7 @@ fn of_task(task: &TaskOutcome, language: Language) -> Vec<Case> {
         return vec![case(task.id.clone(), Some(("failure", why.to_owned())))];
     }
     let criterion = |criterion: &CriterionOutcome| {
-        let why = || explained(criterion, language).join("\n");
+        let why = || explained(outcome, criterion, language).join("\n");
         let inside = match criterion.state {
             State::Passed => None,
             State::Failed => Some(("failure", why())),
@@ -109,7 +111,7 @@ mod tests {
         let suite = "<testsuite name=\"17\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\" time=\"1.500\">";
         assert!(text.contains(suite), "{text}");
         assert!(text.contains("<testcase classname=\"curve\" name=\"shape\"/>"));
-        let expected = "message=\"expected: 0.5 &lt; x; found: &quot;0.25&quot; (pixel 3, 4)\"";
+        let expected = "message=\"expected: 0.5 &lt; x; found: &quot;0.25&quot; (pixel 3, 4) (found by a check";
         assert!(text.contains(expected), "{text}");
         assert!(text.contains("gamma &amp; twice"));
         assert!(text.contains("<failure message=\"Nothing is changed yet\">"));

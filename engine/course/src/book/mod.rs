@@ -14,11 +14,11 @@ pub use junit::junit;
 pub use overview::overview;
 pub use similarity::for_jplag;
 
-use lightbench_lab::lesson::{CriterionOutcome, Language, State, TaskOutcome};
+use lightbench_lab::lesson::{CriterionOutcome, Language, Outcome, State, TaskOutcome};
 
 /// What a criterion says to a student: what must hold, and where it does not, what was expected and
 /// found, why, and what to read again.
-fn explained(criterion: &CriterionOutcome, language: Language) -> Vec<String> {
+fn explained(outcome: &Outcome, criterion: &CriterionOutcome, language: Language) -> Vec<String> {
     let say = |en: &str, es: &str| match language {
         Language::English => en.to_owned(),
         Language::Spanish => es.to_owned(),
@@ -39,13 +39,25 @@ fn explained(criterion: &CriterionOutcome, language: Language) -> Vec<String> {
         if let Some(place) = &finding.place {
             line += &format!(" ({})", words(place));
         }
+        if finding.hidden {
+            line += &format!(" ({})", text_of_hidden(language));
+        }
         lines.push(line);
         lines.extend(finding.cause.as_ref().map(words));
         if let Some(read) = &finding.read {
-            lines.push(format!("{}: {read}", say("read again", "vuelve a leer")));
+            let title = outcome.title_of(read, language);
+            lines.push(format!("{}: {title}", say("read again", "vuelve a leer")));
         }
     }
     lines
+}
+
+/// What is said of a finding that a student could not have seen before.
+fn text_of_hidden(language: Language) -> &'static str {
+    match language {
+        Language::English => "found by a check that only whoever grades has",
+        Language::Spanish => "lo encontró una comprobación que solo tiene quien corrige",
+    }
 }
 
 /// Why a task was not judged.
@@ -95,6 +107,7 @@ pub(crate) mod samples {
             cause: Some(words("gamma & twice")),
             read: Some("gamma".to_owned()),
             pictures: vec![("curve-yours.png".to_owned(), words("yours"))],
+            hidden: true,
         };
         let criterion = |id: &str, points, state, findings| CriterionOutcome {
             id: id.to_owned(),
@@ -140,6 +153,7 @@ pub(crate) mod samples {
                 of: 10,
                 marked: false,
                 tasks,
+                places: [("gamma".to_owned(), words("Gamma, twice"))].into(),
             })),
         )
     }

@@ -22,7 +22,9 @@ pub fn overview(
     let judged = records.iter().filter(|record| record.points().is_some());
     let mut points: Vec<u32> = judged.filter_map(Record::points).collect();
     points.sort_unstable();
-    let mut body = format!("<h1>{}</h1>\n<p>{} hand-ins", escaped(title), records.len());
+    let count = records.len();
+    let noun = if count == 1 { "hand-in" } else { "hand-ins" };
+    let mut body = format!("<h1>{}</h1>\n<p>{count} {noun}", escaped(title));
     if let (Some(least), Some(most)) = (points.first(), points.last()) {
         let middle = points[points.len() / 2];
         let _ = write!(

@@ -335,7 +335,8 @@ impl Grader<'_> {
                 bounds.output >> 10
             )),
             End::Crashed(Some(signal)) => stopped(format!(
-                "the process that checked it crashed with signal {signal}"
+                "the process that checked it crashed with signal {signal}: something in it is too deep or \
+                 too large for this program or the driver"
             )),
             End::Crashed(None) => stopped("the process that checked it crashed".to_owned()),
             End::Cancelled => Ending::Failed("it was cancelled".to_owned()),

@@ -35,8 +35,25 @@ pub fn read_answers(work: &Files) -> Result<BTreeMap<String, Answer>, Words> {
     toml::from_str(&text).map_err(|error: toml::de::Error| {
         let before = &text[..error.span().map_or(0, |span| span.start).min(text.len())];
         let line = before.matches('\n').count() + 1;
-        Words::same(format!("{ANSWERS}:{line}: {}", error.message()))
+        let said = format!("{ANSWERS}:{line}: {}", error.message());
+        let written = text.lines().nth(line - 1).unwrap_or_default();
+        match has_decimal_comma(written) {
+            true => Words::new(
+                format!("{said}; decimals stand behind a point, as in `value = 4.3`"),
+                format!("{said}; los decimales van tras un punto, como en `value = 4.3`"),
+            ),
+            false => Words::same(said),
+        }
     })
+}
+
+/// Whether a line gives a number as `4,3`, as much of the world writes it.
+fn has_decimal_comma(line: &str) -> bool {
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let parts = line
+        .split_once('=')
+        .and_then(|(_, value)| value.split_once(','));
+    parts.is_some_and(|(whole, rest)| digit(whole.chars().last()) && digit(rest.chars().next()))
 }
 
 /// A file of answers with another one in it. All other lines stay as they are; the lines that a new
@@ -135,6 +152,23 @@ mod tests {
 
     fn read(text: &str) -> BTreeMap<String, Answer> {
         toml::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_decimal_comma_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(
+            folder.path().join(ANSWERS),
+            "[passes]\nvalue = 4,3\nreport = \"a\"\n",
+        )
+        .unwrap();
+        let files = Files::with_project(folder.path()).unwrap();
+        let said = read_answers(&files).unwrap_err();
+        assert!(said.en.contains("answers.toml:2") && said.en.contains("behind a point"));
+        assert!(said.es.contains("tras un punto"), "{said:?}");
+        for fine in ["value = 4.3", "values = [4, 3]", "a, 4 = 3", "value = 4, 3"] {
+            assert!(!has_decimal_comma(fine), "{fine}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Checking a submission of a lesson.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -21,7 +22,7 @@ use super::read::CHECKS;
 use super::source::Source;
 use super::stage::Stage;
 use super::submission::{Submission, refusal};
-use super::words::{Words, quantity};
+use super::words::{Language, Words, quantity};
 use crate::experiment::{Remark, Workbench};
 
 /// How a submission is checked.
@@ -125,7 +126,7 @@ pub fn check(
             Some(refusal) => task_outcome(task, unjudged(task), Some(refusal)),
             None => {
                 notes.begin(index);
-                let refusal = bench.run(&task.function())?;
+                let refusal = bench.run(&task.function(), &notes)?;
                 task_outcome(task, notes.take(), refusal)
             }
         };
@@ -148,6 +149,7 @@ pub fn check(
         outcome.seconds = started.elapsed().as_secs_f64();
         outcomes.push(outcome);
     }
+    let places = titles(lesson, &outcomes)?;
     Ok(Outcome {
         schema: OUTCOME_SCHEMA,
         lesson: lesson.name.clone(),
@@ -160,7 +162,23 @@ pub fn check(
             .flat_map(|task| &task.criteria)
             .any(|criterion| criterion.marked),
         tasks: outcomes,
+        places,
     })
+}
+
+/// The titles of the places that outcomes name.
+fn titles(
+    lesson: &Lesson,
+    outcomes: &[TaskOutcome],
+) -> Result<BTreeMap<String, Words>, CheckError> {
+    let [en, es] = [Language::English, Language::Spanish].map(|language| lesson.text(language));
+    let (en, es) = (en?, es?);
+    let places = outcomes.iter().flat_map(TaskOutcome::places);
+    let titled = places.filter_map(|place| {
+        let words = Words::new(en.title_of(place)?, es.title_of(place)?);
+        Some((place.to_owned(), words))
+    });
+    Ok(titled.collect())
 }
 
 fn task_outcome(
@@ -261,9 +279,10 @@ impl Bench {
         })
     }
 
-    /// Runs a function of all scripts that have it.
-    fn run(&mut self, function: &str) -> Result<Option<Refusal>, CheckError> {
-        for script in &mut self.scripts {
+    /// Runs a function of all scripts that have it: the lesson's own, then those of the hidden checks.
+    fn run(&mut self, function: &str, notes: &Notes) -> Result<Option<Refusal>, CheckError> {
+        for (index, script) in self.scripts.iter_mut().enumerate() {
+            notes.hidden(index > 0);
             if !script.functions().iter().any(|(name, _)| name == function) {
                 continue;
             }
@@ -375,6 +394,7 @@ impl Bench {
                 cause: None,
                 read: (!verdict.holds).then(|| question.read.clone()),
                 pictures: Vec::new(),
+                hidden: false,
             }],
         });
         Ok(outcome)

@@ -26,6 +26,8 @@ struct Inner {
     /// The task that is judged now.
     task: Option<usize>,
     criteria: Vec<CriterionOutcome>,
+    /// Whether a check judges that students do not have.
+    hidden: bool,
 }
 
 impl Notes {
@@ -42,7 +44,13 @@ impl Notes {
             pictures,
             task: None,
             criteria: Vec::new(),
+            hidden: false,
         })))
+    }
+
+    /// Says whether what is judged from now on is judged by a check that students do not have.
+    pub(super) fn hidden(&self, hidden: bool) {
+        self.lock().hidden = hidden;
     }
 
     /// Begins a task: its criteria are judged until the next one begins.
@@ -122,6 +130,7 @@ impl Inner {
         let number = self.criteria[index].findings.len() + 1;
         let stem = format!("{}-{criterion}-{number}", task.id);
         let mut finding = self.finding(evidence, &stem)?;
+        finding.hidden = self.hidden;
         if !finding.holds && finding.read.is_none() {
             finding.read = Some(read);
         }
@@ -315,5 +324,6 @@ fn said(verdict: Verdict, expected: Words, found: Words) -> Finding {
         cause: None,
         read: None,
         pictures: Vec::new(),
+        hidden: false,
     }
 }

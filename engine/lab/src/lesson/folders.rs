@@ -9,6 +9,7 @@ use serde::Deserialize;
 use super::Lesson;
 use super::answers::ANSWERS;
 use super::model::Constant;
+use super::print::{PrintError, print};
 use super::read::{HIDDEN, SOLUTION, STARTER};
 use super::words::{Language, number};
 
@@ -38,6 +39,9 @@ struct Marker {
     lesson: Option<LessonOf>,
 }
 
+/// The page with a lesson's text in a project that was made for it.
+pub const LESSON_PAGE: &str = "lesson.html";
+
 /// The lesson that a project says it is for.
 #[must_use]
 pub fn lesson_of(project: &Path) -> Option<LessonOf> {
@@ -47,16 +51,16 @@ pub fn lesson_of(project: &Path) -> Option<LessonOf> {
 }
 
 /// Makes a project in a folder that is empty or not there yet, with the starter of a lesson and a
-/// student's numbers in `README.md`. Gives its full path.
+/// student's numbers in `README.md`, and the text as a page. Gives its full path.
 ///
 /// # Errors
-/// A folder with something in it, or one that can't be written.
+/// A folder with something in it, or one that can't be written; a text or a picture that can't be read.
 pub fn begin(
     lesson: &Lesson,
     student: Option<&str>,
     language: Language,
     folder: &Path,
-) -> Result<PathBuf, FileError> {
+) -> Result<PathBuf, PrintError> {
     let project = create_project(folder)?;
     for path in lesson.source.list(STARTER)? {
         let bytes = lesson.source.read(&format!("{STARTER}/{path}"))?;
@@ -73,6 +77,9 @@ pub fn begin(
         project.join("README.md"),
         readme(lesson, student, language).as_bytes(),
     )?;
+    // The text beside the work, for who has no other window to read it in.
+    let page = print(lesson, language, student)?;
+    write_atomic(project.join(LESSON_PAGE), page.as_bytes())?;
     if !lesson.about.questions.is_empty() {
         write_atomic(project.join(ANSWERS), answers(lesson, language).as_bytes())?;
     }
@@ -104,6 +111,10 @@ fn readme(lesson: &Lesson, student: Option<&str>, language: Language) -> String 
     let spanish = language == Language::Spanish;
     let say = |en: &'static str, es: &'static str| if spanish { es } else { en };
     let mut text = format!("# {}\n\n", about.title.in_language(language));
+    text += say(
+        "The lesson itself is in `lesson.html`, and in the editor's panel \"Lesson\".\n\n",
+        "La lección está en `lesson.html` y en el panel «Lesson» del editor.\n\n",
+    );
     text += say("You hand in:\n\n", "Entregas:\n\n");
     for path in &about.submits {
         text += &format!("- `{path}`\n");

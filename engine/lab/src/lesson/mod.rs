@@ -35,8 +35,7 @@ pub use copies::{CopiedFrom, copied_from, says_the_same};
 pub use document::{
     Block, FORMULA_INK, FORMULAS, Piece, Run, formula_without_paper, has_glyphs_only, read_document,
 };
-pub use folders::{LessonOf, begin, lesson_of, pack};
-
+pub use folders::{LESSON_PAGE, LessonOf, begin, lesson_of, pack};
 pub use imports::{Import, forbidden, imports};
 pub use model::{About, Constant, Criterion, Figure, KnownMistake, LESSON_FILE, Question, Task};
 pub use outcome::{

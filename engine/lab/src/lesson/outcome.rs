@@ -1,8 +1,10 @@
 //! What a check found, as data.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
-use super::words::Words;
+use super::words::{Language, Words};
 
 /// Version of the data. It grows when a field changes its meaning or goes away.
 pub const OUTCOME_SCHEMA: u32 = 1;
@@ -26,6 +28,9 @@ pub struct Outcome {
     pub marked: bool,
     /// The tasks, and then the questions, in their order.
     pub tasks: Vec<TaskOutcome>,
+    /// The titles of the places in the text that are named as worth reading again.
+    #[serde(default)]
+    pub places: BTreeMap<String, Words>,
 }
 
 /// What was found of one task or question.
@@ -127,6 +132,9 @@ pub struct Finding {
     pub read: Option<String>,
     /// Pictures: the name of each file, and what it shows.
     pub pictures: Vec<(String, Words)>,
+    /// Whether a check has found it that students do not have.
+    #[serde(default)]
+    pub hidden: bool,
 }
 
 impl Outcome {
@@ -144,6 +152,13 @@ impl Outcome {
         self.tasks.iter().find(|task| task.id == id)
     }
 
+    /// The title of a place in the text, in a language; the name of the place where it has none.
+    #[must_use]
+    pub fn title_of<'a>(&'a self, place: &'a str, language: Language) -> &'a str {
+        let title = self.places.get(place);
+        title.map_or(place, |title| title.in_language(language))
+    }
+
     /// A criterion by its name.
     #[must_use]
     pub fn criterion(&self, id: &str) -> Option<&CriterionOutcome> {
@@ -153,6 +168,13 @@ impl Outcome {
 }
 
 impl TaskOutcome {
+    /// The places in the text that it names.
+    pub fn places(&self) -> impl Iterator<Item = &str> {
+        let findings = self.criteria.iter().flat_map(|one| &one.findings);
+        let refused = self.refusal.iter().filter_map(|one| one.read.as_deref());
+        refused.chain(findings.filter_map(|finding| finding.read.as_deref()))
+    }
+
     /// What went wrong in it: its refusal, and the causes of its findings.
     pub fn causes(&self) -> impl Iterator<Item = &Words> {
         let findings = self

@@ -57,6 +57,16 @@ impl Text {
         parts.filter_map(|rest| rest.split('"').next()).collect()
     }
 
+    /// The heading that a place stands before, without its marks.
+    #[must_use]
+    pub fn title_of(&self, place: &str) -> Option<&str> {
+        let anchor = format!("<a id=\"{place}\">");
+        let (_, rest) = self.markdown.split_once(&anchor)?;
+        let heading = rest.lines().skip(1).find(|line| !line.trim().is_empty())?;
+        let title = heading.strip_prefix('#')?.trim_start_matches('#');
+        Some(title.trim())
+    }
+
     /// All links and pictures outside of code.
     #[must_use]
     pub fn links(&self) -> Vec<Link> {
@@ -159,6 +169,15 @@ fn f() {
 echo [no](link)
 ```
 ";
+
+    #[test]
+    fn a_place_has_the_title_of_its_heading() {
+        let text = Text::new("text.en.md", TEXT.to_owned());
+        assert_eq!(text.title_of("one"), Some("One"));
+        assert_eq!(text.title_of("none"), None);
+        let bare = Text::new("a.md", "<a id=\"x\"></a>\nNo heading.\n# Later".to_owned());
+        assert_eq!(bare.title_of("x"), None);
+    }
 
     #[test]
     fn a_text_knows_its_places_links_and_listings() {

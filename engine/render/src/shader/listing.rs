@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::problem::{Place, Problem, suggestion};
 
+use super::depth::check_depth;
 use super::imports::{Import, parse_import};
 use super::tokens::{is_word, without_comments};
 
@@ -88,6 +89,7 @@ impl Listing {
             own: Defines::new(),
         };
         let active = reader.read()?;
+        check_depth(path, &active)?;
         let (imports, mentions, own) = (reader.imports, reader.mentions, reader.own);
         Ok(Self {
             path: path.to_owned(),

@@ -55,6 +55,7 @@ use crate::settings::SettingValue;
 use behaviours::{Behaviours, Message};
 use data::Stage;
 use handlers::Event;
+use overlays::LastListing;
 use script::OwnScript;
 
 pub use behaviours::{BEHAVIOURS, BehaviourInfo};
@@ -95,6 +96,7 @@ pub struct Scene {
     console: Scope<'static>,
     /// The camera that was made because the script made none.
     pub(crate) default_camera: Option<Entity>,
+    last_listing: LastListing,
 }
 
 impl std::fmt::Debug for Scene {
@@ -124,6 +126,7 @@ impl Scene {
             script_time: None,
             console: Scope::new(),
             default_camera: None,
+            last_listing: LastListing::default(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Which assets count beside those that something uses, and which count no more.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use lightbench_assets::{AssetCounts, MaterialId, MeshId, TextureId};
 
@@ -24,6 +25,14 @@ pub(super) struct Shelf {
     kept: BTreeSet<AssetId>,
     /// Those that a person has removed.
     gone: BTreeSet<AssetId>,
+    /// Tells marks from others.
+    revision: u64,
+}
+
+/// One sequence for the whole program: no two shelves give one revision to different marks.
+fn next_revision() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
 
 /// The marks of one asset.
@@ -48,6 +57,17 @@ impl Shelf {
                 false => set.remove(&id),
             };
         }
+        self.revision = next_revision();
+    }
+
+    /// A number that changes with every change to any mark.
+    pub(super) fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Those that a person has removed.
+    pub(super) fn gone(&self) -> &BTreeSet<AssetId> {
+        &self.gone
     }
 
     /// Those that are written though nothing uses them.
@@ -117,5 +137,6 @@ impl Data {
         self.materials.retain(|id, _| has(AssetId::Material(*id)));
         self.shelf.kept.retain(|id| has(*id));
         self.shelf.gone.retain(|id| has(*id));
+        self.shelf.revision = next_revision();
     }
 }

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use lightbench::assets::Task;
 use lightbench::assets::files::Files;
 use lightbench::script::Scene;
-use lightbench::script::overlays::{AssetId, Listed};
+use lightbench::script::overlays::{AssetId, Listed, Listing};
 
 use crate::ui::pictures::{MODELS, PICTURES, Subject};
 use crate::ui::workbench::Wake;
@@ -48,6 +49,9 @@ pub struct Card {
 impl Card {
     /// Whether each word that was typed is in its title, its calls or its path.
     pub fn fits(&self, typed: &str) -> bool {
+        if typed.is_empty() {
+            return true;
+        }
         let more = match &self.kind {
             Kind::Asset(listed) => listed.recipe.as_deref().unwrap_or_default(),
             Kind::Picture(path) | Kind::Model(path) => path,
@@ -85,6 +89,24 @@ pub struct Shelves {
     files: FilesOfProject,
     reading: Option<Task<FilesOfProject>>,
     is_read: bool,
+    last: Option<LastCards>,
+}
+
+/// The cards of a shelf.
+#[derive(Debug)]
+pub struct Cards {
+    /// All of them.
+    pub all: Vec<Card>,
+    /// The places of those that hold each word that was typed.
+    pub shown: Vec<usize>,
+}
+
+/// What the cards were made from last: they are made again where something of it is another one.
+struct LastCards {
+    listing: Arc<Listing>,
+    shelf: Shelf,
+    typed: String,
+    cards: Arc<Cards>,
 }
 
 impl Shelves {
@@ -105,6 +127,7 @@ impl Shelves {
                 Err(_) => self.files = FilesOfProject::default(),
             }
             self.reading = None;
+            self.last = None;
         }
         if !self.is_read {
             self.is_read = true;
@@ -129,26 +152,49 @@ impl Shelves {
         }
     }
 
-    /// The cards of a shelf.
-    pub fn cards(&self, scene: &Scene, shelf: Shelf) -> Vec<Card> {
-        let listed = scene.listed();
-        let known: BTreeSet<String> = listed.iter().filter_map(|one| one.recipe.clone()).collect();
-        let on_shelf = |one: &Listed| match one.id {
-            AssetId::Material(_) => shelf == Shelf::Materials,
-            AssetId::Mesh(_) => shelf == Shelf::Meshes,
-            AssetId::Texture(_) => shelf == Shelf::Textures,
+    /// The cards of a shelf, and which of them hold each word that was typed.
+    pub fn cards(&mut self, scene: &Scene, shelf: Shelf, typed: &str) -> Arc<Cards> {
+        let listing = scene.listed();
+        let before = self.last.take().filter(|last| {
+            last.shelf == shelf && last.typed == typed && Arc::ptr_eq(&last.listing, &listing)
+        });
+        let cards = match before {
+            Some(last) => last.cards,
+            None => {
+                let all = self.all(&listing, shelf);
+                let places = (0..all.len()).filter(|place| all[*place].fits(typed));
+                let shown = places.collect();
+                Arc::new(Cards { all, shown })
+            }
         };
-        let assets = listed.into_iter().filter(on_shelf);
-        let assets = assets.map(|one| Card {
+        self.last = Some(LastCards {
+            listing,
+            shelf,
+            typed: typed.to_owned(),
+            cards: Arc::clone(&cards),
+        });
+        cards
+    }
+
+    fn all(&self, listing: &Listing, shelf: Shelf) -> Vec<Card> {
+        let recipes = listing.textures().iter().map(|one| one.recipe.as_deref());
+        let known: BTreeSet<&str> = recipes.flatten().collect();
+        let assets = match shelf {
+            Shelf::Materials => listing.materials(),
+            Shelf::Meshes => listing.meshes(),
+            Shelf::Textures => listing.textures(),
+            Shelf::Models => &[],
+        };
+        let assets = assets.iter().map(|one| Card {
             title: one.who.words(),
-            kind: Kind::Asset(one),
+            kind: Kind::Asset(one.clone()),
         });
         let mut cards: Vec<Card> = assets.collect();
         let file = |path: &String| path.rsplit('/').next().unwrap_or(path).to_owned();
         match shelf {
             Shelf::Textures => {
                 let new = self.files.pictures.iter();
-                let new = new.filter(|path| !known.contains(&super::picture_call(path)));
+                let new = new.filter(|path| !known.contains(&*super::picture_call(path)));
                 cards.extend(new.map(|path| Card {
                     title: file(path),
                     kind: Kind::Picture(path.clone()),

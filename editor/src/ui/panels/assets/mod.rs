@@ -20,7 +20,7 @@ use crate::ui::editor::Editor;
 use crate::ui::layout::Panel;
 use crate::ui::messages::{message, say, text};
 use crate::ui::pictures::{Order, Through};
-pub use cards::{Card, Kind, Shelf, Shelves};
+pub use cards::{Card, Cards, Kind, Shelf, Shelves};
 
 /// Points of a picture.
 const SIDE: f32 = 84.0;
@@ -74,7 +74,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ui.label(RichText::new(say!("assets.no_scene")).weak());
         return;
     };
-    let cards = editor.assets.shelves.cards(scene, editor.assets.shelf);
+    let panel = &mut editor.assets;
+    let cards = panel.shelves.cards(scene, panel.shelf, &panel.filter);
     // What is gone is not chosen any more.
     let chosen = editor.assets.chosen.take();
     editor.assets.chosen = chosen.and_then(|chosen| {
@@ -82,7 +83,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             (Kind::Asset(one), Kind::Asset(other)) => one.id == other.id && one.who == other.who,
             (one, other) => one == other,
         };
-        cards.iter().find(same).cloned()
+        cards.all.iter().find(same).cloned()
     });
     let mut wish = None;
     shelves(editor, ui);
@@ -93,14 +94,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
     details::show(editor, ui, &mut wish);
     ui.separator();
-    let shown: Vec<&Card> = cards
-        .iter()
-        .filter(|card| card.fits(&editor.assets.filter))
-        .collect();
-    if shown.is_empty() {
+    if cards.shown.is_empty() {
         ui.label(RichText::new(empty(editor.assets.shelf)).weak());
     }
-    grid(editor, ui, &shown, &mut wish);
+    grid(editor, ui, &cards, &mut wish);
     if let Some(wish) = wish {
         grant(editor, wish);
     }
@@ -134,15 +131,16 @@ fn shelves(editor: &mut Editor, ui: &mut Ui) {
     });
 }
 
-fn grid(editor: &mut Editor, ui: &mut Ui, cards: &[&Card], wish: &mut Option<Wish>) {
+fn grid(editor: &mut Editor, ui: &mut Ui, cards: &Cards, wish: &mut Option<Wish>) {
     let columns = (ui.available_width() / (CARD.x + 6.0)).floor().max(1.0) as usize;
-    let rows = cards.len().div_ceil(columns);
+    let rows = cards.shown.len().div_ceil(columns);
     let area = ScrollArea::vertical().id_salt("cards").auto_shrink(false);
     area.show_rows(ui, CARD.y, rows, |ui, range| {
         for row in range {
             ui.horizontal(|ui| {
-                for (place, card) in cards.iter().enumerate().skip(row * columns).take(columns) {
-                    ui.push_id(place, |ui| one(editor, ui, card, wish));
+                let shown = cards.shown.iter().enumerate();
+                for (place, card) in shown.skip(row * columns).take(columns) {
+                    ui.push_id(place, |ui| one(editor, ui, &cards.all[*card], wish));
                 }
             });
         }

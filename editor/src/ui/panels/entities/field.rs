@@ -161,7 +161,12 @@ impl Row<'_> {
             .width(150.0)
             .truncate();
         let response = combo.show_ui(ui, |ui| {
-            for one in self.scene.listed() {
+            let listing = self.scene.listed();
+            let shown = match is_mesh {
+                true => listing.meshes(),
+                false => listing.materials(),
+            };
+            for one in shown {
                 let (fits, is_now) = match (one.id, self.value) {
                     (AssetId::Mesh(id), Value::Mesh(now)) => (true, id == *now),
                     (AssetId::Material(id), Value::Material(now)) => (true, id == *now),
@@ -169,8 +174,8 @@ impl Row<'_> {
                 };
                 if fits && ui.selectable_label(is_now, one.who.words()).clicked() {
                     chosen = Some(match is_mesh {
-                        true => Choice::Mesh(Some(one.who)),
-                        false => Choice::Material(Some(one.who)),
+                        true => Choice::Mesh(Some(one.who.clone())),
+                        false => Choice::Material(Some(one.who.clone())),
                     });
                 }
             }

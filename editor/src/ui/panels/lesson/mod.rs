@@ -5,6 +5,9 @@ pub mod shelf;
 mod tasks;
 mod text;
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use lightbench::lab::lesson::{Language, Words};
 
@@ -44,6 +47,8 @@ struct Given<'a> {
     panel: &'a mut LessonPanel,
     language: Language,
     project: Option<std::path::PathBuf>,
+    /// The titles of the places in the text.
+    titles: Arc<BTreeMap<String, String>>,
     wish: &'a mut Option<Wish>,
 }
 
@@ -76,6 +81,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         panel: &mut panel,
         language: lessons.language,
         project: files.project().map(std::path::Path::to_owned),
+        titles: lessons
+            .open
+            .as_ref()
+            .map(|open| Arc::clone(&open.titles))
+            .unwrap_or_default(),
         wish: &mut wish,
     };
     top(&lessons, ui, &mut given);

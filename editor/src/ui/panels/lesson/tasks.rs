@@ -258,7 +258,8 @@ pub(super) fn large(ctx: &Context, given: &mut Given) {
 /// The link to a place of the text.
 fn read(place: &str, ui: &mut Ui, given: &mut Given) {
     let text = given.say(message!("lesson.read"), message!("lesson.read_es"));
-    let link = ui.link(RichText::new(format!("{text} #{place}")).small());
+    let title = given.titles.get(place).map_or(place, String::as_str);
+    let link = ui.link(RichText::new(format!("{text}: {title}")).small());
     if link.clicked() {
         *given.wish = Some(Wish::Read(place.to_owned()));
     }

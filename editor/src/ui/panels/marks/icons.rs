@@ -1,11 +1,13 @@
 //! Lights and cameras over the picture, and how far the chosen ones reach.
 
-use egui::{Color32, Painter, Pos2, Stroke, vec2};
+use egui::emath::GuiRounding;
+use egui::{Color32, Painter, Pos2, Stroke};
 use lightbench::render::View;
 use lightbench::script::Scene;
-use lightbench::world::glam::{Vec2, Vec3};
+use lightbench::world::glam::Vec3;
 use lightbench::world::{Camera, Entity, Light, LightKind, WorldMatrix};
 
+use super::icon::{Icon, Icons, RADIUS};
 use super::shapes::{circle, line};
 use crate::ui::lens::Lens;
 use crate::ui::workbench::selection::Selection;
@@ -13,9 +15,6 @@ use crate::ui::workbench::structure::is_locked;
 
 /// Icons that are drawn; a scene may have a hundred thousand lights.
 const MOST: usize = 2000;
-
-/// Points of the screen from an icon's middle to its edge.
-const RADIUS: f32 = 7.0;
 
 /// How far the cone of a camera is drawn at most, metres.
 const CAMERA_REACH: f32 = 3.0;
@@ -52,45 +51,23 @@ pub fn icon_at(scene: &Scene, lens: &Lens, at: Pos2) -> Option<Entity> {
 
 /// Draws the icons.
 pub fn show(painter: &Painter, lens: &Lens, scene: &Scene, selection: &Selection) {
+    let ctx = painter.ctx();
+    let mut lights = Icons::new(ctx, Icon::Light);
+    let mut cameras = Icons::new(ctx, Icon::Camera);
     for (entity, is_light, at) in all(scene, lens) {
         let color = if selection.contains(entity) {
             Color32::from_rgb(255, 190, 80)
         } else {
             Color32::from_gray(235)
         };
-        // Once dark and wide below it, so that it is seen on anything.
-        for stroke in [
-            Stroke::new(3.5, Color32::from_black_alpha(150)),
-            Stroke::new(1.3, color),
-        ] {
-            if is_light {
-                bulb(painter, at, stroke);
-            } else {
-                camera(painter, at, stroke);
-            }
-        }
+        let icons = match is_light {
+            true => &mut lights,
+            false => &mut cameras,
+        };
+        icons.add(at.round_to_pixels(ctx.pixels_per_point()), color);
     }
-}
-
-fn bulb(painter: &Painter, at: Pos2, stroke: Stroke) {
-    painter.circle_stroke(at, RADIUS * 0.45, stroke);
-    for part in 0..8 {
-        let turn = Vec2::from_angle(part as f32 * std::f32::consts::FRAC_PI_4);
-        let ray = vec2(turn.x, turn.y) * RADIUS;
-        painter.line_segment([at + ray * 0.7, at + ray], stroke);
-    }
-}
-
-fn camera(painter: &Painter, at: Pos2, stroke: Stroke) {
-    let body = egui::Rect::from_center_size(at - vec2(2.0, 0.0), vec2(9.0, 8.0));
-    painter.rect_stroke(body, 1.0, stroke, egui::StrokeKind::Middle);
-    let lens = [
-        at + vec2(2.5, -1.5),
-        at + vec2(RADIUS, -4.0),
-        at + vec2(RADIUS, 4.0),
-        at + vec2(2.5, 1.5),
-    ];
-    painter.line(lens.to_vec(), stroke);
+    lights.draw(painter);
+    cameras.draw(painter);
 }
 
 /// Draws how far a light shines, or what a camera sees.

@@ -1,6 +1,7 @@
 //! What is drawn over the picture: a grid, icons, the bounds of what is chosen.
 
 mod grid;
+mod icon;
 mod icons;
 mod shapes;
 

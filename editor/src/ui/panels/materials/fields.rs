@@ -62,7 +62,7 @@ pub(super) fn show(
     editor: &Editor,
     ui: &mut Ui,
     chosen: &[MaterialId],
-    listed: &[Listed],
+    textures: &[Listed],
     wish: &mut Option<Wish>,
 ) {
     let workbench = &editor.workbench;
@@ -80,7 +80,7 @@ pub(super) fn show(
         let row = Row {
             field,
             value: &value,
-            listed,
+            textures,
         };
         ui.push_id((last, field), |ui| {
             ui.horizontal(|ui| {

@@ -16,7 +16,7 @@ const SIDE: f32 = 28.0;
 pub(super) fn show(
     editor: &mut Editor,
     ui: &mut Ui,
-    materials: &[&Listed],
+    materials: &[Listed],
     wish: &mut Option<Wish>,
 ) {
     ui.horizontal(|ui| {
@@ -25,8 +25,9 @@ pub(super) fn show(
         ui.add(field).labelled_by(label.id);
     });
     let typed = editor.materials.filter.to_lowercase();
-    let fits = |one: &&&Listed| one.who.name.to_lowercase().contains(typed.trim());
-    let shown: Vec<&&Listed> = materials.iter().filter(fits).collect();
+    let typed = typed.trim();
+    let fits = |one: &&Listed| typed.is_empty() || one.who.name.to_lowercase().contains(typed);
+    let shown: Vec<&Listed> = materials.iter().filter(fits).collect();
     if shown.is_empty() {
         ui.label(RichText::new(say!("materials.none")).weak());
     }

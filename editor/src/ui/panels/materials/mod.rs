@@ -9,9 +9,7 @@ mod values;
 use egui::{Button, RichText, ScrollArea, TextEdit, Ui};
 use lightbench::assets::MaterialId;
 use lightbench::script::Scene;
-use lightbench::script::overlays::{
-    AssetEdit, AssetId, Listed, Picture, SurfaceField, SurfaceValue, Who,
-};
+use lightbench::script::overlays::{AssetEdit, AssetId, Picture, SurfaceField, SurfaceValue, Who};
 
 use super::entities::sentence;
 use crate::ui::dialogs::Question;
@@ -65,11 +63,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ui.label(RichText::new(say!("materials.no_scene")).weak());
         return;
     };
-    let listed = scene.listed();
-    let materials: Vec<&Listed> = listed
-        .iter()
-        .filter(|one| matches!(one.id, AssetId::Material(_)))
-        .collect();
+    let listing = scene.listed();
+    let materials = listing.materials();
     let panel = &mut editor.materials;
     panel
         .chosen
@@ -89,7 +84,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             let width = (ui.available_width() - preview::SIDE - 16.0).max(90.0);
             ui.vertical(|ui| {
                 ui.set_width(width);
-                list::show(editor, ui, &materials, &mut wish);
+                list::show(editor, ui, materials, &mut wish);
             });
             ui.vertical(|ui| preview::show(editor, ui, chosen.last().copied(), &mut wish));
         });
@@ -103,7 +98,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             return;
         }
         name(editor, ui, &mut wish);
-        fields::show(editor, ui, &chosen, &listed, &mut wish);
+        fields::show(editor, ui, &chosen, listing.textures(), &mut wish);
     });
     if let Some(wish) = wish {
         grant(editor, wish);
@@ -203,12 +198,10 @@ fn grant(editor: &mut Editor, wish: Wish) {
             if renamed.is_ok()
                 && let Some(scene) = workbench.scenes.scene()
             {
-                let named = scene
-                    .listed()
-                    .into_iter()
-                    .rev()
-                    .find(|one| matches!(one.id, AssetId::Material(_)) && one.who.name == name);
-                panel.chosen = named.into_iter().map(|one| one.who).collect();
+                let listing = scene.listed();
+                let mut all = listing.materials().iter().rev();
+                let named = all.find(|one| one.who.name == name);
+                panel.chosen = named.into_iter().map(|one| one.who.clone()).collect();
             }
             renamed
         }

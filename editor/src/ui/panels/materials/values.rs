@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
 use lightbench::assets::{Reflection, ReflectionModel};
-use lightbench::script::overlays::{AssetId, Listed, Picture, SurfaceField, SurfaceValue};
+use lightbench::script::overlays::{Listed, Picture, SurfaceField, SurfaceValue};
 use lightbench::world::glam::Vec3;
 
 use super::fields::align;
@@ -18,7 +18,8 @@ const CUTOFF: f32 = 0.5;
 pub(super) struct Row<'a> {
     pub field: SurfaceField,
     pub value: &'a SurfaceValue,
-    pub listed: &'a [Listed],
+    /// The textures of the scene.
+    pub textures: &'a [Listed],
 }
 
 /// What somebody did to a field.
@@ -126,10 +127,7 @@ fn pictures(ui: &mut Ui, row: &Row, picture: &Picture, label: egui::Id) -> Optio
         };
         offer(ui, *picture == Picture::None, none, Picture::None);
         let mut seen = Vec::new();
-        for one in row.listed {
-            if !matches!(one.id, AssetId::Texture(_)) {
-                continue;
-            }
+        for one in row.textures {
             let value = match &one.recipe {
                 Some(recipe) => Picture::Made(recipe.clone()),
                 None => Picture::Known(one.who.clone()),

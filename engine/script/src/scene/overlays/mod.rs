@@ -26,8 +26,10 @@ pub use kept::{KeptEdit, KeptField, KeptOverlays};
 pub use lines::{degrees_of, line, rotation_of};
 pub(crate) use lines::{spell_point, spell_single};
 use structure::Done;
+pub(super) use structure::LastListing;
 pub use structure::{
-    AssetEdit, Edit, LOCKED, Listed, NewKind, Picture, SurfaceField, SurfaceValue, Who, topmost,
+    AssetEdit, Edit, LOCKED, Listed, Listing, NewKind, Picture, SurfaceField, SurfaceValue, Who,
+    topmost,
 };
 
 /// One value that a person has set.
@@ -190,6 +192,39 @@ impl Overlays {
         }
         scene.refresh();
         (count, result)
+    }
+
+    /// Lays a value on a field that was changed by hand before. Where the entity or its component is not
+    /// there now, it waits for it, as it does after a load.
+    ///
+    /// # Errors
+    /// A sentence, where the field does not take the value.
+    pub fn lay_again(
+        &mut self,
+        scene: &mut Scene,
+        entity: &str,
+        path: &str,
+        value: Value,
+    ) -> Result<(), String> {
+        let field = tables::field(path).map_err(|mistake| mistake.message)?;
+        let found = scene.world.find(entity);
+        let there = found.and_then(|found| scene.world.field_at(found, field.kind, field.index));
+        if let (Some(found), Some(_)) = (found, there) {
+            return self.set(scene, found, path, value);
+        }
+        editable(field.kind, field.info).map_err(str::to_owned)?;
+        let waiting = Overlay {
+            value,
+            script: None,
+            in_force: None,
+            contested: false,
+            entity: Entity::NONE,
+            aim: None,
+        };
+        self.all
+            .insert((entity.to_owned(), path.to_owned()), waiting);
+        self.looked = None;
+        Ok(())
     }
 
     fn lay(

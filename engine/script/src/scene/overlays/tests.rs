@@ -344,3 +344,31 @@ fn moving_a_spot_by_hand_keeps_it_aimed_as_its_line_does() {
     overlays.reset(&mut by_hand, "lamp", "transform.translation");
     assert_eq!(rotation(&by_hand), before);
 }
+
+/// As when a reset is taken back, after the light was taken away and before that is taken back too.
+#[test]
+fn what_is_laid_again_waits_where_its_component_is_gone() {
+    let script = format!("{LAMP} camera(\"eye\");");
+    let (mut scene, mut overlays) = (scene(&script), Overlays::new());
+    let lamp = scene.world.find("lamp").unwrap();
+    let light: Light = scene.world.remove(lamp).unwrap();
+    let again = |overlays: &mut Overlays, scene: &mut Scene, who: &str| {
+        overlays.lay_again(scene, who, "light.intensity", Value::Float(40.0))
+    };
+    again(&mut overlays, &mut scene, "lamp").unwrap();
+    again(&mut overlays, &mut scene, "nobody").unwrap();
+    assert_eq!(overlays.waiting().count(), 2);
+    scene.world.insert(lamp, light).unwrap();
+    overlays.follow(&mut scene);
+    assert_eq!(intensity(&scene), 40.0);
+    assert_eq!(overlays.waiting().count(), 1);
+    assert!(overlays.reset(&mut scene, "lamp", "light.intensity"));
+    assert_eq!(intensity(&scene), 12.0);
+    // One that is there takes it at once, and refuses what it does not take.
+    again(&mut overlays, &mut scene, "lamp").unwrap();
+    assert_eq!(intensity(&scene), 40.0);
+    let wrong = Value::Float(f32::NAN);
+    overlays
+        .lay_again(&mut scene, "lamp", "light.intensity", wrong)
+        .unwrap_err();
+}

@@ -21,7 +21,8 @@ use std::collections::{HashMap, HashSet};
 
 use lightbench_world::{Entity, scene_file};
 
-pub use assets::{AssetEdit, Listed, Picture, SurfaceField, SurfaceValue};
+pub(in crate::scene) use assets::LastListing;
+pub use assets::{AssetEdit, Listed, Listing, Picture, SurfaceField, SurfaceValue};
 pub use edit::{Edit, Who};
 pub use finding::topmost;
 pub use kinds::NewKind;

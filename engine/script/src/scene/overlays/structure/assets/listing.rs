@@ -1,6 +1,7 @@
 //! The assets of a scene for who chooses among them.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use lightbench_assets::{Assets, MaterialId, MeshId, TextureId};
 use lightbench_world::{ClipVolume, Entity, MeshRenderer};
@@ -8,8 +9,8 @@ use lightbench_world::{ClipVolume, Entity, MeshRenderer};
 use super::super::Who;
 use super::naming;
 use crate::scene::Scene;
+use crate::scene::data::Data;
 use crate::scene::recipes::MeshRecipe;
-use crate::scene::saved::used;
 pub use crate::scene::shelf::AssetId;
 use crate::scene::shelf::Shelf;
 
@@ -26,31 +27,83 @@ pub struct Listed {
     pub is_kept: bool,
 }
 
+/// All assets that there are for a person: meshes, then materials, then textures.
+#[derive(Debug, Default, PartialEq)]
+pub struct Listing {
+    all: Vec<Listed>,
+    meshes: usize,
+    materials: usize,
+}
+
+impl Listing {
+    /// All of them.
+    #[must_use]
+    pub fn all(&self) -> &[Listed] {
+        &self.all
+    }
+
+    /// The meshes.
+    #[must_use]
+    pub fn meshes(&self) -> &[Listed] {
+        &self.all[..self.meshes]
+    }
+
+    /// The materials.
+    #[must_use]
+    pub fn materials(&self) -> &[Listed] {
+        &self.all[self.meshes..][..self.materials]
+    }
+
+    /// The textures.
+    #[must_use]
+    pub fn textures(&self) -> &[Listed] {
+        &self.all[self.meshes + self.materials..]
+    }
+}
+
+/// What a listing was made from: while it stays the same, so does the listing.
+#[derive(Debug, PartialEq, Eq)]
+struct Stamp {
+    assets: u64,
+    shelf: u64,
+    /// Those that were deleted and that something uses still.
+    gone_but_used: BTreeSet<AssetId>,
+}
+
+/// The last listing of a scene: panels ask for it in each frame, and a scene may have thousands of meshes.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct LastListing(Mutex<Option<(Stamp, Arc<Listing>)>>);
+
 impl Scene {
     /// All meshes, materials and textures that there are for a person: not what was deleted and is not
-    /// used, and not the default material and the texture for missing pictures.
+    /// used, and not the default material and the texture for missing pictures. While nothing changes,
+    /// it is the same list.
     #[must_use]
-    pub fn listed(&self) -> Vec<Listed> {
+    pub fn listed(&self) -> Arc<Listing> {
+        let data = self.stage.lock();
+        let stamp = Stamp {
+            assets: self.assets.roster_revision(),
+            shelf: data.shelf.revision(),
+            gone_but_used: self.gone_but_used(&data.shelf),
+        };
+        let last = self.last_listing.0.lock();
+        let mut last = last.unwrap_or_else(PoisonError::into_inner);
+        match &*last {
+            Some((before, listing)) if *before == stamp => Arc::clone(listing),
+            _ => {
+                let listing = Arc::new(self.list(&data, &stamp.gone_but_used));
+                *last = Some((stamp, Arc::clone(&listing)));
+                listing
+            }
+        }
+    }
+
+    fn list(&self, data: &Data, gone_but_used: &BTreeSet<AssetId>) -> Listing {
         let assets = &self.assets;
         let counts = assets.counts();
-        let meshes = (0..counts.meshes as u32).map(|id| AssetId::Mesh(MeshId(id)));
-        let materials = (1..counts.materials as u32).map(|id| AssetId::Material(MaterialId(id)));
-        let textures = (1..counts.textures as u32).map(|id| AssetId::Texture(TextureId(id)));
-        let data = self.stage.lock();
-        let all: Vec<AssetId> = meshes.chain(materials).chain(textures).collect();
-        let names = [
-            names(assets.meshes().iter().map(|entry| &*entry.value.name)),
-            names(assets.materials().iter().map(|entry| &*entry.value.name)),
-            names(assets.textures().iter().map(|entry| &*entry.value.name)),
-        ];
-        let listed = all.into_iter().filter_map(|id| {
+        let listed = |id: AssetId, who: &Who| {
             let marks = data.shelf.marks(id);
-            let (table, place) = match id {
-                AssetId::Mesh(id) => (0, id.0),
-                AssetId::Material(id) => (1, id.0),
-                AssetId::Texture(id) => (2, id.0),
-            };
-            if marks.gone && !self.is_used(&data.shelf, id) {
+            if marks.gone && !gone_but_used.contains(&id) {
                 return None;
             }
             let recipe = match id {
@@ -63,21 +116,51 @@ impl Scene {
             };
             Some(Listed {
                 id,
-                who: names[table].get(place as usize)?.clone(),
+                who: who.clone(),
                 recipe,
                 is_kept: marks.kept,
             })
-        });
-        listed.collect()
+        };
+        let mut all = Vec::with_capacity(counts.meshes + counts.materials + counts.textures);
+        let meshes = names(assets.meshes().iter().map(|entry| &*entry.value.name));
+        let ids = (0..).map(|id| AssetId::Mesh(MeshId(id)));
+        all.extend(ids.zip(&meshes).filter_map(|(id, who)| listed(id, who)));
+        let meshes = all.len();
+        // The first of these two tables is nobody's.
+        let materials = names(assets.materials().iter().map(|entry| &*entry.value.name));
+        let ids = (0..).map(|id| AssetId::Material(MaterialId(id)));
+        let rest = ids.zip(&materials).skip(1);
+        all.extend(rest.filter_map(|(id, who)| listed(id, who)));
+        let materials = all.len() - meshes;
+        let textures = names(assets.textures().iter().map(|entry| &*entry.value.name));
+        let ids = (0..).map(|id| AssetId::Texture(TextureId(id)));
+        let rest = ids.zip(&textures).skip(1);
+        all.extend(rest.filter_map(|(id, who)| listed(id, who)));
+        Listing {
+            all,
+            meshes,
+            materials,
+        }
     }
 
-    fn is_used(&self, shelf: &Shelf, id: AssetId) -> bool {
-        let (meshes, materials) = used(&self.world);
-        match id {
-            AssetId::Mesh(id) => meshes.contains(&id),
-            AssetId::Material(id) => materials.contains(&id),
-            AssetId::Texture(id) => !textured(&self.assets, shelf, id).is_empty(),
+    /// What was deleted and something uses still.
+    fn gone_but_used(&self, shelf: &Shelf) -> BTreeSet<AssetId> {
+        if shelf.gone().is_empty() {
+            return BTreeSet::new();
         }
+        let renderers = self.world.columns::<MeshRenderer>();
+        let volumes = self.world.columns::<ClipVolume>().mesh().iter();
+        let meshes = renderers.mesh().iter().chain(volumes);
+        let meshes = meshes.map(|id| AssetId::Mesh(*id));
+        let materials = renderers.material().iter().map(|id| AssetId::Material(*id));
+        let drawn = meshes
+            .chain(materials)
+            .filter(|id| shelf.gone().contains(id));
+        let textures = shelf.gone().iter().copied().filter(|id| match id {
+            AssetId::Texture(id) => !textured(&self.assets, shelf, *id).is_empty(),
+            _ => false,
+        });
+        drawn.chain(textures).collect()
     }
 
     /// What to call a material in changes.

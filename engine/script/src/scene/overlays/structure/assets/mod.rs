@@ -21,7 +21,8 @@ use crate::scene::shelf::AssetId;
 use crate::spelling::spell_text;
 
 pub(super) use inverse::AssetInverse;
-pub use listing::Listed;
+pub(in crate::scene) use listing::LastListing;
+pub use listing::{Listed, Listing};
 pub use surface::{Picture, SurfaceField, SurfaceValue};
 pub(super) use work::perform;
 

@@ -1,5 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
+use std::sync::Arc;
+
 use lightbench_assets::{Material, Progress, Reflection};
 use lightbench_world::glam::Vec3;
 use lightbench_world::{MeshRenderer, Transform};
@@ -207,7 +209,12 @@ fn what_is_drawn_with_a_deleted_material_gets_the_default_one() {
     assert_eq!(worn(&scene, "jug"), "default");
     assert_eq!(worn(&scene, "wall"), "wall");
     assert!(!scene.to_text().unwrap().contains("\"clay\""));
-    let names: Vec<String> = scene.listed().iter().map(|one| one.who.words()).collect();
+    let names: Vec<String> = scene
+        .listed()
+        .all()
+        .iter()
+        .map(|one| one.who.words())
+        .collect();
     assert!(!names.contains(&"clay".to_owned()), "{names:?}");
     overlays.undo_edit(&mut scene);
     assert_eq!(worn(&scene, "cup"), "clay");
@@ -367,4 +374,60 @@ fn what_can_not_be_done_says_why_and_changes_nothing() {
         assert_eq!(now, before, "{edit:?}");
     }
     assert!(overlays.is_empty());
+}
+
+#[test]
+fn the_list_is_made_again_where_something_of_it_has_changed_and_only_there() {
+    let (_folder, mut scene) = scene();
+    let mut overlays = Overlays::new();
+    let first = scene.listed();
+    let has_clay = |scene: &Scene| {
+        let listing = scene.listed();
+        let found = listing
+            .materials()
+            .iter()
+            .find(|one| one.who.name == "clay");
+        found.map(|one| one.id)
+    };
+    let Some(AssetId::Material(clay)) = has_clay(&scene) else {
+        panic!("no clay in {first:?}");
+    };
+    assert!(Arc::ptr_eq(&first, &scene.listed()));
+    scene.update(0.1, 0.1).unwrap();
+    assert!(Arc::ptr_eq(&first, &scene.listed()));
+    let kinds = |all: &[Listed], fits: fn(&AssetId) -> bool| all.iter().all(|one| fits(&one.id));
+    assert!(kinds(first.meshes(), |id| matches!(id, AssetId::Mesh(_))));
+    assert!(kinds(first.materials(), |id| matches!(
+        id,
+        AssetId::Material(_)
+    )));
+    assert!(kinds(first.textures(), |id| matches!(
+        id,
+        AssetId::Texture(_)
+    )));
+    let parts = [first.meshes(), first.materials(), first.textures()].concat();
+    assert_eq!(parts, first.all());
+
+    let new = AssetEdit::NewMesh {
+        recipe: "box(4.5)".to_owned(),
+    };
+    overlays.edit(&mut scene, Edit::Assets(new)).unwrap();
+    assert_eq!(scene.listed().meshes().len(), first.meshes().len() + 1);
+    overlays.undo_edit(&mut scene).unwrap();
+    assert_eq!(scene.listed(), first);
+
+    let delete = AssetEdit::DeleteMaterial {
+        of: vec![who("clay")],
+    };
+    overlays.edit(&mut scene, Edit::Assets(delete)).unwrap();
+    assert_eq!(has_clay(&scene), None);
+    // What a script draws with it still, or again, brings it back.
+    let cup = scene.world.find("cup").unwrap();
+    let mut renderer: MeshRenderer = scene.world.get(cup).unwrap();
+    let dressed = std::mem::replace(&mut renderer.material, clay);
+    scene.world.set(cup, renderer).unwrap();
+    assert_eq!(has_clay(&scene), Some(AssetId::Material(clay)));
+    renderer.material = dressed;
+    scene.world.set(cup, renderer).unwrap();
+    assert_eq!(has_clay(&scene), None);
 }
