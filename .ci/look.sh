@@ -139,7 +139,7 @@ check_window() {
     if [ -n "$absent" ]; then printf 'libraries for the window (no%s)\n' "$absent"; fi
 }
 
-# A display of its own for the test that works in a real window.
+# A display of its own for the tests that work in a real window.
 check_screen() {
     local library absent=
     if [ "$system" != Linux ]; then return; fi

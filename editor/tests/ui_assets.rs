@@ -11,6 +11,7 @@ use lightbench::assets::images::encode_png;
 use lightbench::script::{Scene, Settings, load_scene};
 use lightbench::world::{MeshRenderer, Name};
 use lightbench_editor::ui::layout::Panel;
+use lightbench_editor::ui::workbench::log::Level;
 
 use ui_support::Bench;
 
@@ -310,4 +311,44 @@ fn models_of_the_project_and_from_elsewhere_are_added_and_taken_back() {
     assert_eq!(text(&mut bench), three);
     while bench.harness.state_mut().workbench.undo() {}
     assert_eq!(text(&mut bench), before);
+}
+
+#[test]
+fn who_saves_a_scene_with_a_model_from_elsewhere_is_told_what_the_file_needs() {
+    let elsewhere = tempfile::tempdir().unwrap();
+    let file = elsewhere.path().canonicalize().unwrap().join("my leaf.obj");
+    std::fs::write(&file, MODEL).unwrap();
+    let mut bench = open();
+    let complaints = |bench: &Bench| {
+        let log = &bench.harness.state().workbench.log;
+        let warnings = log.lines().filter(|line| line.level == Level::Warning);
+        let needs = warnings.filter(|line| line.text.contains("needs"));
+        needs.map(|line| line.text.clone()).collect::<Vec<_>>()
+    };
+    bench
+        .harness
+        .state_mut()
+        .workbench
+        .save_scene("kept")
+        .unwrap();
+    assert_eq!(complaints(&bench), Vec::<String>::new());
+    bench
+        .harness
+        .state_mut()
+        .workbench
+        .open_file(&file)
+        .unwrap();
+    bench.until("the model", |editor| {
+        let scenes = &editor.workbench.scenes;
+        scenes.shown() == Some("showroom") && !scenes.is_busy() && !editor.workbench.is_arriving()
+    });
+    bench
+        .harness
+        .state_mut()
+        .workbench
+        .save_scene("leaf")
+        .unwrap();
+    let told = complaints(&bench);
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains(file.to_str().unwrap()), "{told:?}");
 }

@@ -7,11 +7,13 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use lightbench::render::Pipeline;
+use lightbench::render::{Pipeline, View};
 use lightbench::script::{Settings, list_pipelines};
+use lightbench::world::glam::Vec3;
 use lightbench_tests::{Studio, Workshop};
 
 /// The system's allocator, which notes who asks while somebody listens.
@@ -100,17 +102,31 @@ fn owner(stack: &str) -> &'static str {
     "others"
 }
 
-/// Draws frames, and gives the stacks of what they allocate.
-fn frames(studio: &mut Studio, pipeline: &mut Pipeline, first: u32, count: u32) -> Vec<String> {
-    for frame in first..first + count {
+/// The sizes of the pictures of each frame: those of the viewports that are open. Each is a series.
+const VIEWPORTS: [(u32, u32); 2] = [(96, 64), (61, 83)];
+
+/// Draws frames in some viewports, and gives the stacks of what they allocate.
+fn frames(
+    studio: &mut Studio,
+    pipeline: &mut Pipeline,
+    viewports: usize,
+    frames: Range<u32>,
+) -> Vec<String> {
+    // From above; the other one is the scene's camera.
+    let eye = Vec3::new(1.0, 9.0, 5.0);
+    let above = View::look_at(eye, Vec3::ZERO, 1.0, 0.1, 100.0);
+    let views = [studio.view, above];
+    for frame in frames {
         let time = f64::from(frame) / 60.0;
         studio.scene.update(time, 1.0 / 60.0).unwrap();
         let (world, assets) = (&mut studio.scene.world, &studio.scene.assets);
-        studio
-            .renderer
-            .render(world, assets, pipeline, &studio.view, (96, 64), time)
-            .unwrap();
-        studio.renderer.poll().unwrap();
+        for (series, (view, size)) in views.iter().zip(VIEWPORTS).take(viewports).enumerate() {
+            studio
+                .renderer
+                .render_in(series, world, assets, pipeline, view, size, time)
+                .unwrap();
+            studio.renderer.poll().unwrap();
+        }
     }
     std::mem::take(&mut *HEARD.lock().unwrap())
 }
@@ -134,36 +150,49 @@ ambient_light().intensity(0.1);
 directional_light().aim(-1, -1, -1);
 ";
 
+/// The same where nothing moves but time.
+fn still() -> String {
+    let words = MOVING.replace(".velocity(0.1, 0, 0).spin(0, 30, 0)", "");
+    words.replace(".velocity(0, 0, 0.2)", "")
+}
+
 #[test]
 fn no_frame_of_any_pipeline_allocates() {
     let workshop = Workshop::new();
     workshop.write("scripts/scenes/moving.rhai", MOVING);
+    let still = still();
+    assert!(!still.contains("velocity") && !still.contains("spin"));
+    workshop.write("scripts/scenes/still.rhai", &still);
     let mut studio = Studio::new("cornell_box", &Settings::new());
-    studio.show(workshop.files.clone(), "moving");
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(2)
         .build()
         .unwrap();
     let mut faults = String::new();
-    for entry in list_pipelines(&studio.files).unwrap() {
-        let mut pipeline = studio.compile(&entry.name, &Settings::new());
-        let heard = pool.install(|| {
-            frames(&mut studio, &mut pipeline, 0, 12);
-            LISTENS.store(true, Ordering::Relaxed);
-            let heard = frames(&mut studio, &mut pipeline, 12, 3);
-            LISTENS.store(false, Ordering::Relaxed);
-            heard
-        });
-        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-        for stack in &heard {
-            let owner = owner(stack);
-            *counts.entry(owner).or_default() += 1;
-            if owner != "wgpu" && owner != "rayon" {
-                faults.push_str(&format!("--- {}, {owner}\n{stack}\n", entry.name));
+    let pipelines = list_pipelines(&studio.files).unwrap();
+    for (scene, viewports) in [("moving", 1), ("moving", 2), ("still", 2)] {
+        studio.show(workshop.files.clone(), scene);
+        for entry in &pipelines {
+            let mut pipeline = studio.compile(&entry.name, &Settings::new());
+            let heard = pool.install(|| {
+                frames(&mut studio, &mut pipeline, viewports, 0..12);
+                LISTENS.store(true, Ordering::Relaxed);
+                let heard = frames(&mut studio, &mut pipeline, viewports, 12..15);
+                LISTENS.store(false, Ordering::Relaxed);
+                heard
+            });
+            let name = format!("{} of {scene} in {viewports}", entry.name);
+            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+            for stack in &heard {
+                let owner = owner(stack);
+                *counts.entry(owner).or_default() += 1;
+                if owner != "wgpu" && owner != "rayon" {
+                    faults.push_str(&format!("--- {name}, {owner}\n{stack}\n"));
+                }
             }
+            println!("{name}: in three frames {counts:?}");
+            assert!(counts.contains_key("wgpu"), "nothing was heard");
         }
-        println!("{}: in three frames {counts:?}", entry.name);
-        assert!(counts.contains_key("wgpu"), "nothing was heard");
     }
     assert!(faults.is_empty(), "{faults}");
 }

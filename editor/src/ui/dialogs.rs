@@ -3,13 +3,14 @@
 use std::env;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::task::{Context as TaskContext, Poll, Wake, Waker};
 use std::time::{Duration, Instant};
 
 use egui::{Context, Id, Key, Modal, Modifiers, RichText, TextEdit};
 use lightbench::script::SCENE_EXTENSION;
 use rfd::{AsyncFileDialog, FileHandle};
+use winit::window::Window;
 
 use super::pictures::{MODELS, PICTURES};
 use crate::ui::messages::say;
@@ -69,8 +70,42 @@ type Answer = Pin<Box<dyn Future<Output = Option<FileHandle>> + Send>>;
 /// A dialog of the system that is open.
 struct Native {
     question: Question,
+    begin_at: Option<PathBuf>,
     since: Instant,
+    bell: Option<Arc<Bell>>,
     answer: Answer,
+}
+
+impl Native {
+    fn new(question: Question, begin_at: Option<&Path>, answer: Answer) -> Self {
+        Self {
+            question,
+            begin_at: begin_at.map(Path::to_owned),
+            since: Instant::now(),
+            bell: None,
+            answer,
+        }
+    }
+
+    fn poll(&mut self, ctx: &Context) -> Poll<Option<FileHandle>> {
+        let bell = self.bell.get_or_insert_with(|| {
+            Arc::new(Bell {
+                ctx: ctx.clone(),
+                rung: OnceLock::new(),
+            })
+        });
+        let waker = Waker::from(Arc::clone(bell));
+        let mut context = TaskContext::from_waker(&waker);
+        self.answer.as_mut().poll(&mut context)
+    }
+
+    /// How long the answer took. The window may have looked for it later, in its next frame.
+    fn took(&self) -> Duration {
+        let rung = self.bell.as_ref().and_then(|bell| bell.rung.get());
+        rung.map_or(self.since.elapsed(), |rung| {
+            rung.saturating_duration_since(self.since)
+        })
+    }
 }
 
 /// A path that is typed.
@@ -85,6 +120,8 @@ struct Typed {
 pub struct Dialogs {
     /// Whether the system is asked for its dialogs.
     pub native: bool,
+    /// The window before which they lie.
+    pub(super) window: Option<Arc<Window>>,
     open: Option<Native>,
     typed: Option<Typed>,
 }
@@ -93,18 +130,23 @@ impl Default for Dialogs {
     fn default() -> Self {
         Self {
             native: has_dialogs(),
+            window: None,
             open: None,
             typed: None,
         }
     }
 }
 
-/// Draws a window when a dialog has an answer.
-struct Repaint(Context);
+/// Draws a window when a dialog has an answer, and notes when that came.
+struct Bell {
+    ctx: Context,
+    rung: OnceLock<Instant>,
+}
 
-impl Wake for Repaint {
+impl Wake for Bell {
     fn wake(self: Arc<Self>) {
-        self.0.request_repaint();
+        self.rung.get_or_init(Instant::now);
+        self.ctx.request_repaint();
     }
 }
 
@@ -121,6 +163,9 @@ impl Dialogs {
         let mut dialog = AsyncFileDialog::new().set_title(question.title());
         if let Some(folder) = begin_at {
             dialog = dialog.set_directory(folder);
+        }
+        if let Some(window) = &self.window {
+            dialog = dialog.set_parent(window);
         }
         let answer: Answer = match question {
             Question::Project | Question::Lesson => Box::pin(dialog.pick_folder()),
@@ -145,11 +190,7 @@ impl Dialogs {
                 Box::pin(dialog.set_file_name("scene.scene").save_file())
             }
         };
-        self.open = Some(Native {
-            question,
-            since: Instant::now(),
-            answer,
-        });
+        self.open = Some(Native::new(question, begin_at, answer));
     }
 
     /// Asks for a path that is typed.
@@ -166,21 +207,17 @@ impl Dialogs {
     /// Draws what is asked here, and returns the path that was given, if one was.
     pub fn show(&mut self, ctx: &Context) -> Option<(Question, PathBuf)> {
         if let Some(open) = &mut self.open {
-            let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
-            let Poll::Ready(answer) = open
-                .answer
-                .as_mut()
-                .poll(&mut TaskContext::from_waker(&waker))
-            else {
+            let Poll::Ready(answer) = open.poll(ctx) else {
                 return None;
             };
-            let (question, since) = (open.question, open.since);
+            let (question, took) = (open.question, open.took());
+            let begin_at = open.begin_at.take();
             self.open = None;
             match answer {
                 Some(file) => return Some((question, file.path().to_owned())),
-                None if since.elapsed() < AT_ONCE => {
+                None if took < AT_ONCE => {
                     self.native = false;
-                    self.ask_for_path(question, None);
+                    self.ask_for_path(question, begin_at.as_deref());
                 }
                 None => {}
             }
@@ -252,4 +289,88 @@ fn has_dialogs() -> bool {
         .into_iter()
         .flat_map(|path| env::split_paths(&path).collect::<Vec<_>>());
     bus || folders.any(|folder| folder.join("zenity").is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+
+    /// A dialog of the system, which a test answers.
+    #[derive(Clone, Default)]
+    struct Dialog(Arc<Mutex<Open>>);
+
+    #[derive(Default)]
+    struct Open {
+        answer: Option<Option<FileHandle>>,
+        waker: Option<Waker>,
+    }
+
+    impl Dialog {
+        fn open(dialogs: &mut Dialogs) -> Self {
+            let dialog = Self::default();
+            let open = Arc::clone(&dialog.0);
+            let answer = std::future::poll_fn(move |context| {
+                let mut open = open.lock().expect("no test panics meanwhile");
+                open.waker = Some(context.waker().clone());
+                open.answer.take().map_or(Poll::Pending, Poll::Ready)
+            });
+            let folder = Some(Path::new("here"));
+            dialogs.native = true;
+            dialogs.open = Some(Native::new(Question::Scene, folder, Box::pin(answer)));
+            dialog
+        }
+
+        fn answer(&self, answer: Option<PathBuf>) {
+            let mut open = self.0.lock().expect("no test panics meanwhile");
+            open.answer = Some(answer.map(FileHandle::from));
+            open.waker.take().expect("somebody waits").wake();
+        }
+    }
+
+    /// A frame of a window.
+    fn frame(dialogs: &mut Dialogs, ctx: &Context) -> Option<(Question, PathBuf)> {
+        let mut answer = None;
+        let _ = ctx.run_ui(egui::RawInput::default(), |ui| {
+            answer = answer.take().or(dialogs.show(ui.ctx()));
+        });
+        answer
+    }
+
+    #[test]
+    fn where_there_is_no_dialog_a_path_is_asked_for_however_late_the_window_sees_it() {
+        let (mut dialogs, ctx) = (Dialogs::default(), Context::default());
+        let dialog = Dialog::open(&mut dialogs);
+        assert!(frame(&mut dialogs, &ctx).is_none());
+        dialog.answer(None);
+        // A frame that takes longer than a person needs to answer.
+        std::thread::sleep(2 * AT_ONCE);
+        assert!(frame(&mut dialogs, &ctx).is_none());
+        assert!(dialogs.is_typing() && !dialogs.native);
+        let path = dialogs.typed.as_ref().map(|typed| typed.path.as_str());
+        assert_eq!(path, Path::new("here").join("").to_str());
+    }
+
+    #[test]
+    fn who_cancels_a_dialog_is_asked_no_more() {
+        let (mut dialogs, ctx) = (Dialogs::default(), Context::default());
+        let dialog = Dialog::open(&mut dialogs);
+        assert!(frame(&mut dialogs, &ctx).is_none());
+        std::thread::sleep(2 * AT_ONCE);
+        dialog.answer(None);
+        assert!(frame(&mut dialogs, &ctx).is_none());
+        assert!(dialogs.open.is_none() && !dialogs.is_typing() && dialogs.native);
+    }
+
+    #[test]
+    fn a_file_that_was_chosen_is_given_on() {
+        let (mut dialogs, ctx) = (Dialogs::default(), Context::default());
+        let dialog = Dialog::open(&mut dialogs);
+        assert!(frame(&mut dialogs, &ctx).is_none());
+        let file = PathBuf::from("somewhere/a scene.rhai");
+        dialog.answer(Some(file.clone()));
+        assert_eq!(frame(&mut dialogs, &ctx), Some((Question::Scene, file)));
+        assert!(dialogs.open.is_none() && !dialogs.is_typing());
+    }
 }

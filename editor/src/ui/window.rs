@@ -108,6 +108,7 @@ impl Program {
         let kept = Kept::read(options.kept.clone());
         let workbench = Workbench::new(gpu, options, wake);
         let mut editor = Editor::new(workbench, surface.painter(), kept);
+        editor.dialogs.window = Some(Arc::clone(&window));
         editor.gallery.thumbnails.folder = thumbnails::default_folder();
         window.request_redraw();
         self.running = Some(Running {

@@ -1,6 +1,10 @@
 //! A virtual display (Xvfb) with a pointer and keys that come from the server, as those of a person do
 //! (XTEST extension).
 
+// The benchmark of the start uses a part of it.
+#![allow(dead_code)]
+
+use std::collections::HashSet;
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -20,6 +24,8 @@ pub enum Key {
     /// A letter or a digit, as it is written on the key, in small letters.
     Letter(char),
     Return,
+    Tab,
+    Space,
     Escape,
     Control,
     Shift,
@@ -31,6 +37,8 @@ impl Key {
         match self {
             Self::Letter(letter) => u32::from(letter),
             Self::Return => 0xff0d,
+            Self::Tab => 0xff09,
+            Self::Space => 0x20,
             Self::Escape => 0xff1b,
             Self::Control => 0xffe3,
             Self::Shift => 0xffe1,
@@ -119,7 +127,8 @@ impl Screen {
         std::thread::sleep(Duration::from_millis(30));
     }
 
-    fn point(&self, x: f32, y: f32) {
+    /// Moves the pointer.
+    pub fn point(&self, x: f32, y: f32) {
         self.fake(MOTION_NOTIFY_EVENT, 0, (x.round() as i16, y.round() as i16));
     }
 
@@ -189,21 +198,38 @@ impl Screen {
         }
     }
 
-    /// All pixels, row by row: blue, green, red and one byte that means nothing.
-    fn pixels(&self) -> Vec<u8> {
-        let (width, height) = self.size;
-        let image =
-            self.connection
-                .get_image(ImageFormat::Z_PIXMAP, self.root(), 0, 0, width, height, !0);
+    /// The pixels of a rectangle, row by row: blue, green, red and one byte that means nothing.
+    fn read(&self, (x, y): (i16, i16), (width, height): (u16, u16)) -> Vec<u8> {
+        let format = ImageFormat::Z_PIXMAP;
+        let image = self
+            .connection
+            .get_image(format, self.root(), x, y, width, height, !0);
         image.unwrap().reply().unwrap().data
+    }
+
+    /// All pixels, as [`Self::read`] gives them.
+    pub fn pixels(&self) -> Vec<u8> {
+        self.read((0, 0), self.size)
+    }
+
+    /// How many different colours there are in a rectangle.
+    pub fn colors(&self, from: (i16, i16), size: (u16, u16)) -> usize {
+        let pixels = self.read(from, size);
+        let colors = pixels.chunks_exact(4).map(|p| [p[0], p[1], p[2]]);
+        colors.collect::<HashSet<_>>().len()
     }
 
     /// Where a colour is, if it is anywhere.
     pub fn blot(&self, color: [u8; 3]) -> Option<Blot> {
+        self.blot_beyond(0, color)
+    }
+
+    /// The same where so many pixels at the left do not count.
+    pub fn blot_beyond(&self, left: usize, color: [u8; 3]) -> Option<Blot> {
         let width = usize::from(self.size.0);
         let (mut x, mut y, mut count) = (0_u64, 0_u64, 0_usize);
         for (at, pixel) in self.pixels().chunks_exact(4).enumerate() {
-            if [pixel[2], pixel[1], pixel[0]] == color {
+            if at % width >= left && [pixel[2], pixel[1], pixel[0]] == color {
                 x += (at % width) as u64;
                 y += (at / width) as u64;
                 count += 1;

@@ -1,5 +1,6 @@
 //! Writing the scene as a file that holds its world.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use lightbench::script::SCENE_EXTENSION;
@@ -35,13 +36,13 @@ impl Workbench {
             return Err(say!("saving.no_scene_is_loaded").to_owned());
         };
         let update = scene.has_update();
+        let text = scene.to_text().map_err(|problem| problem.message)?;
         let is_path = Path::new(plain).is_absolute();
         let file = if is_path {
             let file = PathBuf::from(format!("{plain}.{SCENE_EXTENSION}"));
             scene.save(&file).map_err(|problem| problem.message)?;
             file
         } else {
-            let text = scene.to_text().map_err(|problem| problem.message)?;
             let path = format!("{FOLDER}/{plain}.{SCENE_EXTENSION}");
             let written = self.files.write(&path, text.as_bytes());
             written.map_err(|error| error.to_string())?
@@ -52,7 +53,20 @@ impl Workbench {
         if update {
             self.log.warn(say!("saving.the_script_update_is_not_part"));
         }
+        for file in self.outside(&text) {
+            self.log.warn(say!("saving.outside", file = file));
+        }
         self.library.refresh(&self.files, &self.wake);
         Ok(file)
+    }
+    /// The files outside of the project that the text of a scene names. Their paths there hold for this run.
+    fn outside(&self, text: &str) -> BTreeSet<String> {
+        // What stands between quotes: every second piece.
+        let names = text
+            .lines()
+            .flat_map(|line| line.split('"').skip(1).step_by(2));
+        let of_this_run = names.filter(|name| name.starts_with('@'));
+        let files = of_this_run.map(|name| self.files.display(name));
+        files.filter(|file| Path::new(file).is_absolute()).collect()
     }
 }
