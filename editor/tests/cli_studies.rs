@@ -171,9 +171,10 @@ fn tuning_chooses_declared_values_and_keeps_the_picture() {
     let tuned = project
         .run(&[&arguments[..], &["--tune"]].concat())
         .succeeded();
-    // Three sides of a tile with and without a mask; volumes or not, with three uses of the stencil.
+    // Three sides of a tile with and without a mask, shaded in two ways; volumes or not, with three uses of
+    // the stencil.
     assert!(
-        tuned.stderr.contains("tuning: 12 variants of 2 pipelines"),
+        tuned.stderr.contains("tuning: 18 variants of 2 pipelines"),
         "{}",
         tuned.all()
     );
@@ -185,7 +186,7 @@ fn tuning_chooses_declared_values_and_keeps_the_picture() {
             .map(|s| s["name"].as_str().unwrap().to_owned())
             .collect()
     };
-    assert_eq!(names(&chosen[0]), ["tile_size", "depth_mask"]);
+    assert_eq!(names(&chosen[0]), ["tile_size", "depth_mask", "shading"]);
     assert_eq!(names(&chosen[1]), ["light_volumes", "volume_stencil"]);
     let pipelines = report["points"][0]["comparison"]["pipelines"].clone();
     for (pipeline, chosen) in pipelines.as_array().unwrap().iter().zip(chosen) {

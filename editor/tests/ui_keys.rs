@@ -142,3 +142,31 @@ fn keys_have_the_same_names_for_those_who_hear_them_and_those_who_ask() {
         }
     }
 }
+
+/// A frame may take so long that a key is pressed more than once in it.
+#[test]
+fn each_press_counts_also_where_a_frame_brings_two() {
+    let mut bench = Bench::open();
+    let entities = |bench: &Bench| {
+        let scene = bench.harness.state().workbench.scenes.scene();
+        scene.unwrap().world.entities().count()
+    };
+    let workbench = &mut bench.harness.state_mut().workbench;
+    let scene = workbench.scenes.scene().unwrap();
+    let named = scene.world.columns::<lightbench::world::Name>();
+    let first = named.entities()[0];
+    workbench.selection.set(scene, Some(first));
+    bench.harness.run_steps(2);
+    let before = entities(&bench);
+    let press = |pressed| egui::Event::Key {
+        key: Key::D,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: egui::Modifiers::COMMAND,
+    };
+    let twice = [press(true), press(false), press(true), press(false)];
+    bench.harness.input_mut().events.extend(twice);
+    bench.harness.run_steps(3);
+    assert_eq!(entities(&bench), before + 2);
+}

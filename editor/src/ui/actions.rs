@@ -186,12 +186,15 @@ pub fn shortcut_text(ctx: &egui::Context, action: Action) -> Option<String> {
     entry.shortcut.map(|shortcut| key_text(ctx, &shortcut))
 }
 
-/// Whether a key is pressed, which is taken then. Plus shares its key with the sign for equal on many
-/// keyboards, and is meant also without Shift.
-fn is_pressed(input: &mut egui::InputState, shortcut: &KeyboardShortcut) -> bool {
-    let unshifted = KeyboardShortcut::new(shortcut.modifiers, Key::Equals);
-    input.consume_shortcut(shortcut)
-        || (shortcut.logical_key == Key::Plus && input.consume_shortcut(&unshifted))
+/// How often a key is pressed in this frame, which is taken then: a slow frame may bring several presses.
+/// Plus shares its key with the sign for equal on many keyboards, and is meant also without Shift.
+fn presses(input: &mut egui::InputState, shortcut: &KeyboardShortcut) -> usize {
+    let mut count = |key| input.count_and_consume_key(shortcut.modifiers, key);
+    let presses = count(shortcut.logical_key);
+    match shortcut.logical_key {
+        Key::Plus => presses + count(Key::Equals),
+        _ => presses,
+    }
 }
 
 /// Does what the keys of this frame ask for, unless a text field has them.
@@ -218,9 +221,10 @@ pub fn keyboard(editor: &mut Editor, ctx: &egui::Context) {
         if entry.action == Action::SelectNone && menu_is_open {
             continue;
         }
-        if let Some(shortcut) = entry.shortcut.filter(is_left)
-            && ctx.input_mut(|input| is_pressed(input, &shortcut))
-        {
+        let Some(shortcut) = entry.shortcut.filter(is_left) else {
+            continue;
+        };
+        for _ in 0..ctx.input_mut(|input| presses(input, &shortcut)) {
             editor.perform(entry.action, ctx);
         }
     }

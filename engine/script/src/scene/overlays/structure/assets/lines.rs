@@ -8,6 +8,7 @@ use lightbench_world::Entity;
 
 use super::super::lines::find;
 use super::super::{Inverse, Who};
+use super::work::PART;
 use super::{AssetEdit, naming};
 use crate::scene::Scene;
 use crate::scene::recipes;
@@ -108,9 +109,13 @@ impl AssetEdit {
                 path, name, place, ..
             } => {
                 let at = crate::scene::overlays::spell_point(place.translation);
+                let prefix = spell_text(&format!("{name}{PART}"));
                 let (path, name) = (spell_text(path), spell_text(name));
+                // Its parts are called after it, as they are where a person adds it.
                 Ok(format!(
-                    "{{ let it = load_model({path}); it.name = {name}; it.at({at}); }}"
+                    "{{ let it = load_model({path}); it.name = {name}; it.at({at}); let parts = it.children; \
+                     while !parts.is_empty() {{ let part = parts.pop(); parts += part.children; \
+                     if part.name != \"\" {{ part.name = {prefix} + part.name; }} }} }}"
                 ))
             }
         }

@@ -297,7 +297,7 @@ fn mesh(scene: &mut Scene, recipe: &str) -> Result<MeshId, String> {
 }
 
 /// What stands between the name of a model and that of a part.
-const PART: &str = ": ";
+pub(super) const PART: &str = ": ";
 
 /// Whether a name is that of a part of a model.
 pub(super) fn is_part_of(name: &str, model: &str) -> bool {
