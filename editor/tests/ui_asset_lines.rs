@@ -12,6 +12,7 @@ use lightbench::assets::{Material, Mesh};
 use lightbench::script::Scene;
 use lightbench::script::overlays::Who;
 use lightbench::world::{MeshRenderer, Name};
+use lightbench_editor::ui::Editor;
 use lightbench_editor::ui::layout::Panel;
 
 use ui_support::Bench;
@@ -69,6 +70,21 @@ fn drawn(bench: &Bench) -> Vec<Drawn> {
         .collect();
     all.sort_by(|a, b| a.0.cmp(&b.0));
     all
+}
+
+/// The picture once all models of reflection have their shaders: until then the one before stays.
+fn settled(bench: &mut Bench) -> Vec<u8> {
+    loop {
+        let picture = bench.picture();
+        let waits = |editor: &Editor| {
+            let pipelines = &editor.workbench.pipelines;
+            pipelines.is_busy() || pipelines.is_warming()
+        };
+        if !waits(bench.harness.state()) {
+            return picture;
+        }
+        bench.until("the shaders", |editor| !waits(editor));
+    }
 }
 
 fn click(bench: &mut Bench, label: &str) {
@@ -153,7 +169,7 @@ fn lines_of_changed_materials_and_meshes_make_the_same_world_in_a_script() {
     };
     workbench.reshape_chosen(Some(torus)).unwrap();
     bench.harness.run_steps(3);
-    let wanted = drawn(&bench);
+    let (wanted, picture) = (drawn(&bench), settled(&mut bench));
     let done = lines(&bench);
     assert!(done.iter().all(|line| !line.starts_with("//")), "{done:#?}");
     assert_eq!(
@@ -170,6 +186,7 @@ fn lines_of_changed_materials_and_meshes_make_the_same_world_in_a_script() {
     let all_at_once = bench.harness.state().workbench.overlay_lines();
     open_scene(&mut bench, "again", &script);
     assert_eq!(drawn(&bench), wanted, "{script}");
+    assert!(settled(&mut bench) == picture, "{script}");
     // And so do the lines of all that lies over the script.
     open_scene(&mut bench, "once_more", &format!("{ROOM}\n{all_at_once}"));
     assert_eq!(drawn(&bench), wanted, "{all_at_once}");

@@ -1,6 +1,6 @@
 //! The ball of the material that is edited, through any pipeline.
 
-use egui::{Color32, Pos2, Rect, RichText, Sense, Ui, vec2};
+use egui::{Color32, Label, Pos2, Rect, RichText, Sense, Ui, vec2};
 use lightbench::assets::MaterialId;
 use lightbench::script::Settings;
 
@@ -52,11 +52,9 @@ pub(super) fn show(
             ui.label(RichText::new(first).small().color(color))
                 .on_hover_text(why);
         } else if !preview.is_current && preview.texture.is_none() {
-            ui.label(
-                RichText::new(say!("materials.is_being_drawn"))
-                    .small()
-                    .weak(),
-            );
+            // In the picture's place, so that nothing moves when it comes.
+            let words = RichText::new(say!("materials.is_being_drawn")).small();
+            ui.put(rect, Label::new(words.weak()));
         }
     }
     choice(editor, ui, wish);
