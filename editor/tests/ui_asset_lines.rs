@@ -111,17 +111,6 @@ fn type_into(bench: &mut Bench, role: Role, label: &str, typed: &str) {
     bench.key(Modifiers::NONE, Key::Enter);
 }
 
-fn choose(bench: &mut Bench, names: &[&str]) {
-    let workbench = &mut bench.harness.state_mut().workbench;
-    let scene = workbench.scenes.scene().unwrap();
-    let entities: Vec<_> = names
-        .iter()
-        .map(|name| scene.world.find(name).unwrap())
-        .collect();
-    workbench.selection.set(scene, entities);
-    bench.harness.run_steps(2);
-}
-
 /// The lines of all that was done to the scene.
 fn lines(bench: &Bench) -> Vec<String> {
     let deeds = bench.harness.state().workbench.history.deeds();
@@ -142,13 +131,13 @@ fn lines_of_changed_materials_and_meshes_make_the_same_world_in_a_script() {
     type_into(&mut bench, Role::TextInput, "Material's name", "gold");
     click(&mut bench, "gold");
     type_into(&mut bench, Role::SpinButton, "Color", "0.7512345");
-    choose(&mut bench, &["cup", "pan"]);
+    bench.choose_entities(&["cup", "pan"]);
     click(&mut bench, "Give to what is chosen");
     click(&mut bench, "clay");
     type_into(&mut bench, Role::SpinButton, "Emissive", "0.25");
     click(&mut bench, "Duplicate material");
     bench.choose("Model", "Ward, anisotropic");
-    choose(&mut bench, &["pan"]);
+    bench.choose_entities(&["pan"]);
     click(&mut bench, "Give to what is chosen");
     click(&mut bench, "gold");
     let node = bench
@@ -161,7 +150,7 @@ fn lines_of_changed_materials_and_meshes_make_the_same_world_in_a_script() {
         recipe: "torus(1, 0.25)".to_owned(),
     };
     workbench.change_assets(torus).unwrap();
-    choose(&mut bench, &["jug"]);
+    bench.choose_entities(&["jug"]);
     let workbench = &mut bench.harness.state_mut().workbench;
     let torus = Who {
         name: "torus".to_owned(),

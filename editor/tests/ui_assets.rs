@@ -108,17 +108,6 @@ fn back_and_again(bench: &mut Bench, before: &str) {
     assert_eq!(text(bench), after);
 }
 
-fn choose_entities(bench: &mut Bench, names: &[&str]) {
-    let workbench = &mut bench.harness.state_mut().workbench;
-    let scene = workbench.scenes.scene().unwrap();
-    let entities: Vec<_> = names
-        .iter()
-        .map(|name| scene.world.find(name).unwrap())
-        .collect();
-    workbench.selection.set(scene, entities);
-    bench.harness.run_steps(2);
-}
-
 fn chosen(bench: &Bench) -> Vec<String> {
     let workbench = &bench.harness.state().workbench;
     let world = &scene(bench).world;
@@ -209,7 +198,7 @@ fn a_mesh_is_made_of_a_shape_given_to_entities_saved_and_deleted() {
     back_and_again(&mut bench, &before);
     card(&mut bench, "torus");
     assert_eq!(bench.count("Nothing uses it."), 1);
-    choose_entities(&mut bench, &["cup", "jug"]);
+    bench.choose_entities(&["cup", "jug"]);
     click(&mut bench, "Give to chosen entities");
     assert_eq!(
         (mesh_of(&bench, "cup"), mesh_of(&bench, "jug")),

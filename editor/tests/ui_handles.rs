@@ -47,17 +47,6 @@ fn lens(bench: &Bench) -> Lens {
     Lens::new(viewport(bench), view)
 }
 
-fn choose(bench: &mut Bench, names: &[&str]) {
-    let workbench = &mut bench.harness.state_mut().workbench;
-    let scene = workbench.scenes.scene().unwrap();
-    let found: Vec<_> = names
-        .iter()
-        .map(|name| scene.world.find(name).unwrap())
-        .collect();
-    workbench.selection.set(scene, found);
-    bench.harness.run_steps(2);
-}
-
 fn transform(bench: &Bench, name: &str) -> Transform {
     let scene = bench.harness.state().workbench.scenes.scene().unwrap();
     let entity = scene.world.find(name).unwrap();
@@ -136,7 +125,7 @@ fn until_picture_is(bench: &mut Bench, wanted: &[u8]) {
 fn a_handle_moves_what_is_chosen_as_one_step_that_is_taken_back_and_done_again() {
     let mut bench = open();
     let first = bench.picture();
-    choose(&mut bench, &["alone"]);
+    bench.choose_entities(&["alone"]);
     let (from, to) = on_handle(&bench, Vec3::new(-2.0, 0.0, 0.0), Vec3::X, 1.0);
     drag(&mut bench, from, to);
     let at = transform(&bench, "alone").translation;
@@ -172,7 +161,7 @@ fn a_handle_moves_what_is_chosen_as_one_step_that_is_taken_back_and_done_again()
 #[test]
 fn what_was_typed_is_the_amount_and_escape_gives_it_up() {
     let mut bench = open();
-    choose(&mut bench, &["alone"]);
+    bench.choose_entities(&["alone"]);
     let at = Vec3::new(-2.0, 0.0, 0.0);
     let (from, to) = on_handle(&bench, at, Vec3::X, 0.3);
     pull(&mut bench, from, to);
@@ -203,7 +192,7 @@ fn what_was_typed_is_the_amount_and_escape_gives_it_up() {
 #[test]
 fn the_world_s_axes_hold_below_a_turned_parent_and_local_ones_turn_with_it() {
     let mut bench = open();
-    choose(&mut bench, &["below"]);
+    bench.choose_entities(&["below"]);
     let before = world_place(&bench, "below");
     assert!(
         (before - Vec3::new(1.0, 2.0, 0.0)).length() < 1e-4,
@@ -230,7 +219,7 @@ fn the_world_s_axes_hold_below_a_turned_parent_and_local_ones_turn_with_it() {
 fn several_turn_and_scale_together_and_what_hangs_on_one_goes_along_once() {
     let mut bench = open();
     // The last one has the handles.
-    choose(&mut bench, &["below", "alone", "above"]);
+    bench.choose_entities(&["below", "alone", "above"]);
     key(&mut bench, Key::R, Modifiers::NONE);
     let center = Vec3::new(1.0, 0.0, 0.0);
     let lens_now = lens(&bench);
@@ -366,7 +355,7 @@ fn the_history_goes_to_any_step_over_fields_parameters_and_resets() {
 #[test]
 fn what_is_typed_into_a_field_is_one_step_and_escape_leaves_the_field_alone() {
     let mut bench = open();
-    choose(&mut bench, &["lamp"]);
+    bench.choose_entities(&["lamp"]);
     bench.show(Panel::Entities);
     let field = |bench: &mut Bench| {
         bench

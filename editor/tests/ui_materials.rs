@@ -209,17 +209,6 @@ fn take_all_back(bench: &mut Bench) {
     while !steps(bench).is_empty() && bench.harness.state_mut().workbench.undo() {}
 }
 
-fn choose_entities(bench: &mut Bench, names: &[&str]) {
-    let workbench = &mut bench.harness.state_mut().workbench;
-    let scene = workbench.scenes.scene().unwrap();
-    let entities: Vec<_> = names
-        .iter()
-        .map(|name| scene.world.find(name).unwrap())
-        .collect();
-    workbench.selection.set(scene, entities);
-    bench.harness.run_steps(2);
-}
-
 #[test]
 fn a_material_is_made_named_given_to_what_is_chosen_saved_and_read() {
     let mut bench = open();
@@ -239,7 +228,7 @@ fn a_material_is_made_named_given_to_what_is_chosen_saved_and_read() {
         material(&bench, "gold").base_color,
         Vec3::new(0.75, 0.5, 0.5)
     );
-    choose_entities(&mut bench, &["cup", "pan"]);
+    bench.choose_entities(&["cup", "pan"]);
     click(&mut bench, "Give to what is chosen");
     assert_eq!(
         (worn(&bench, "cup"), worn(&bench, "pan")),
@@ -515,7 +504,7 @@ fn the_ball_follows_changes_and_pipelines_and_is_not_drawn_for_nothing() {
 fn the_inspector_offers_meshes_and_materials_for_all_that_is_chosen() {
     let mut bench = open();
     bench.show(Panel::Entities);
-    choose_entities(&mut bench, &["cup", "jug"]);
+    bench.choose_entities(&["cup", "jug"]);
     let before = text(&mut bench);
     bench.choose("Material", "steel");
     assert_eq!(

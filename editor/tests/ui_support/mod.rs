@@ -195,6 +195,16 @@ impl Bench {
         }
     }
 
+    /// Chooses the entities of those names.
+    pub fn choose_entities(&mut self, names: &[&str]) {
+        let workbench = &mut self.harness.state_mut().workbench;
+        let scene = workbench.scenes.scene().unwrap();
+        let found = names.iter().map(|name| scene.world.find(name).unwrap());
+        let entities: Vec<_> = found.collect();
+        workbench.selection.set(scene, entities);
+        self.harness.run_steps(2);
+    }
+
     /// Opens a combo box and picks an entry.
     pub fn choose(&mut self, combo: &str, entry: &str) {
         self.harness

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use lightbench_assets::cache::Cache;
 use lightbench_assets::files::Files;
 use lightbench_assets::{Cancelled, Progress};
+use lightbench_render::problem::counted;
 use lightbench_render::{
     Compiler, Gpu, GpuError, GpuOptions, Pipeline, PipelineDesc, Problems, Renderer, Variants, View,
 };
@@ -380,7 +381,7 @@ impl Worker<'_> {
         let name = self.plan.scenes[point.scene].name();
         Comparison {
             schema: SCHEMA,
-            title: format!("{name}: {} pipelines", self.plan.pipelines.len()),
+            title: format!("{name}: {}", counted(self.plan.pipelines.len(), "pipeline")),
             scene: name,
             command_line: self.process.command_line.clone(),
             created: (self.process.clock)(),

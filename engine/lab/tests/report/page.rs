@@ -99,6 +99,8 @@ fn thirteen_pipelines_at_four_points_work_in_a_browser() {
         std::fs::copy(&files.html, kept).unwrap();
     }
     assert!(page.len() < 25_000_000, "{} bytes", page.len());
+    // Questions and tables ask for counters by their names.
+    assert!(page.contains("Lights on lists (lights_on_lists): "));
 
     // All references of the page and of its script lead somewhere.
     let ids = attributes(&page, "id");

@@ -143,8 +143,8 @@ fn counted(w: &mut Writer, p: &PipelineResult) {
             let summary = Summary::of(&counter.values)?;
             let median = count(summary.median.round() as u64);
             Some(format!(
-                "{}: {median} (median a frame).",
-                counter.description
+                "{} ({}): {median} (median a frame).",
+                counter.description, counter.name
             ))
         })
         .collect();
