@@ -88,7 +88,7 @@ fn hostile() -> Vec<(&'static str, Files)> {
         ("loops-in-a-script", with(SCRIPT, "loop {}".to_owned())),
         ("loops-in-a-shader", with(SHADER, endless)),
         ("eats-memory", with(SCRIPT, "let all = []; loop { all.push(\"x\".repeat(100000)); }\nfn repeat(s, n) { let t = s; while t.len < n { t += t; } t }".to_owned())),
-        ("crashes", with(SHADER, deep)),
+        ("too-deep", with(SHADER, deep)),
     ]
 }
 

@@ -306,7 +306,18 @@ fn hidden_checks_find_what_was_made_for_the_others() {
             let of_student = super::checked(&lesson, work.path(), &["irradiance"]);
             assert_eq!(of_student.points, of_student.of, "{}", told(&of_student));
             let outcome = with_hidden(&folder, &lesson, work.path());
-            assert_eq!(outcome.task("irradiance").unwrap().points, 0);
+            let task = outcome.task("irradiance").unwrap();
+            assert_eq!(task.points, 0);
+            // It is told that a hidden check found it, and what to read again by its title.
+            let findings = task.criteria.iter().flat_map(|one| &one.findings);
+            let missed: Vec<_> = findings.filter(|finding| !finding.holds).collect();
+            assert!(!missed.is_empty() && missed.iter().all(|finding| finding.hidden));
+            let places: Vec<&str> = task.places().collect();
+            assert!(!places.is_empty());
+            for place in places {
+                let title = &outcome.places[place];
+                assert!(title.en != place && title.es != title.en, "{title:?}");
+            }
         }
     }
 }
