@@ -1,5 +1,6 @@
 //! What can be wrong with a pipeline or a shader, said so that a student can mend it.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -86,15 +87,38 @@ impl Problem {
     }
 }
 
+/// Characters of a line that are shown; what a program has written may have thousands in one.
+const WIDEST: usize = 160;
+
+/// The part of a line around a column, and the column in it. Columns begin at 1; 0 is none.
+fn excerpt(line: &str, column: usize) -> (Cow<'_, str>, usize) {
+    let count = line.chars().count();
+    if count <= WIDEST {
+        return (line.into(), column);
+    }
+    let first = column
+        .saturating_sub(WIDEST / 2)
+        .min(count.saturating_sub(WIDEST));
+    let part: String = line.chars().skip(first).take(WIDEST).collect();
+    let before = if first > 0 { "…" } else { "" };
+    let after = if first + WIDEST < count { "…" } else { "" };
+    let column = match column {
+        0 => 0,
+        column => column - first + before.chars().count(),
+    };
+    (format!("{before}{part}{after}").into(), column)
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.place, self.message)?;
         if let Some(line) = &self.source_line {
+            let (line, column) = excerpt(line, self.place.column as usize);
             write!(f, "\n    {line}")?;
-            if self.place.column > 0 {
+            if column > 0 {
                 let indent: String = line
                     .chars()
-                    .take(self.place.column as usize - 1)
+                    .take(column - 1)
                     .map(|c| if c == '\t' { '\t' } else { ' ' })
                     .collect();
                 write!(f, "\n    {indent}^")?;
@@ -206,6 +230,30 @@ pub fn counted(count: usize, what: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_long_line_the_part_around_the_mistake_is_shown() {
+        for (column, begins, ends) in [
+            (1, "X", "…"),
+            (200, "…", "…"),
+            (400, "…", "X"),
+            (0, ".", "…"),
+        ] {
+            let mut line = ".".repeat(400);
+            if column > 0 {
+                line.replace_range(column - 1..column, "X");
+            }
+            let (shown, at) = excerpt(&line, column);
+            assert!(shown.chars().count() <= WIDEST + 2, "{shown}");
+            assert!(
+                shown.starts_with(begins) && shown.ends_with(ends),
+                "{shown}"
+            );
+            let under = at.checked_sub(1).and_then(|at| shown.chars().nth(at));
+            assert_eq!(under, (column > 0).then_some('X'), "{column}: {shown}");
+        }
+        assert_eq!(excerpt("short", 3), ("short".into(), 3));
+    }
 
     #[test]
     fn suggests_the_nearest_name_only_when_it_is_near() {
